@@ -1,0 +1,343 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * accel: exact ray-tracing acceleration structures behind one C interface.
+ *
+ *     accel_geometry mesh = {.type = ACCEL_TRIANGLES, .triangles = {...}};
+ *     accel_scene scene = {&mesh, 1};
+ *     accel *a;
+ *     accel_error error;
+ *     if (accel_build(&a, &scene, "hoo:leaf=8", NULL, &error) != ACCEL_OK)
+ *         puts(error.text);
+ *     accel_ray ray = accel_ray_from(eye, direction);
+ *     accel_hit hit;
+ *     if (accel_closest(a, &ray, &hit, NULL))
+ *         printf("triangle %u at t = %.17g\n", hit.prim, hit.t);
+ *     accel_free(a);
+ *
+ * The contract: every kind of structure returns the answer of the kind "linear", which tests every
+ * primitive in order, bit for bit. Hits are ordered by (t, geometry, primitive), so ties go to the
+ * lowest geometry, then to the lowest primitive. The interval is open: tmin < t < tmax. There is no
+ * epsilon: a ray that leaves a surface names the primitive it left in ray.skip.
+ *
+ * Lengths are in the caller's units, in double; t is in units of |dir|, which need not be 1.
+ *
+ * Threads: a built accel is immutable. Any number of threads may query it at the same time, each
+ * with its own accel_query. Builds of different structures are independent.
+ *
+ * The library never prints, exits or aborts, and has no global state. The floating-point
+ * environment is the caller's: under another rounding mode or flush-to-zero the answers may differ
+ * between modes, but every kind still equals "linear" in that mode.
+ */
+#ifndef ACCEL_H
+#define ACCEL_H
+
+#include <float.h>
+#include <math.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#define ACCEL_VERSION "0.1.0"
+
+#if defined(__GNUC__)
+#define ACCEL_API __attribute__((visibility("default")))
+#else
+#define ACCEL_API
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* A built structure. Made by accel_build, ended by accel_free. */
+typedef struct accel accel;
+
+/* No geometry, no primitive: see accel_id. */
+#define ACCEL_NONE UINT32_MAX
+
+/* Coordinates beyond this magnitude (2^1000) are out of range: see accel_build. */
+#define ACCEL_MAX_COORDINATE 0x1p1000
+
+/* ---------------------------------------------------------------- errors ---- */
+
+typedef enum accel_status {
+    ACCEL_OK = 0,
+    ACCEL_BAD_ARGUMENT, /* a NULL, a bad stride, an index past its vertices */
+    ACCEL_BAD_CONFIG,   /* the config string: unknown kind or key, repeat, range, trailing text */
+    ACCEL_NO_MEMORY,    /* the allocator said no */
+    ACCEL_TOO_LARGE,    /* more than 2^32 - 2 primitives or references */
+    ACCEL_CANCELLED,    /* the progress hook said stop */
+    ACCEL_BROKEN        /* accel_validate found a broken invariant: a bug in the library */
+} accel_status;
+
+/* One line, lower case, no full stop: where, what was found, what is allowed, what happened. */
+typedef struct accel_error {
+    accel_status status;
+    char text[500];
+} accel_error;
+
+/* ----------------------------------------------------------------- scene ---- */
+
+/* A closed axis-aligned box. lo[k] <= hi[k]; infinite sides are allowed for objects. */
+typedef struct accel_box {
+    double lo[3], hi[3];
+} accel_box;
+
+/* Names a primitive: the index of its geometry in the scene, and its index in the geometry. */
+typedef struct accel_id {
+    uint32_t geom, prim;
+} accel_id;
+
+/* A ray: the points org + t * dir with tmin < t < tmax.
+ * A ray whose org or dir is not finite, whose dir is zero, or whose tmin or tmax is NaN hits
+ * nothing and is counted in accel_query.refused. Make one with accel_ray_from. */
+typedef struct accel_ray {
+    double org[3]; /* origin */
+    double dir[3]; /* direction, any length but zero */
+    double tmin;   /* exclusive; may be negative or -INFINITY */
+    double tmax;   /* exclusive; may be INFINITY */
+    accel_id skip; /* this primitive is not tested; {ACCEL_NONE, ACCEL_NONE} for none */
+} accel_ray;
+
+/* The ray from org along dir, 0 < t < infinity, skipping nothing. */
+static inline accel_ray accel_ray_from(const double org[3], const double dir[3])
+{
+    accel_ray ray;
+    for (int k = 0; k < 3; k++) {
+        ray.org[k] = org[k];
+        ray.dir[k] = dir[k];
+    }
+    ray.tmin = 0.0;
+    ray.tmax = (double)INFINITY;
+    ray.skip.geom = ACCEL_NONE;
+    ray.skip.prim = ACCEL_NONE;
+    return ray;
+}
+
+/* A hit. u, v: for triangles the barycentric weights of the second and third vertex; for spheres
+ * 0 and 0; for objects whatever the callback reported. */
+typedef struct accel_hit {
+    double t, u, v;
+    uint32_t geom, prim;
+} accel_hit;
+
+/* Triangles over the caller's arrays, which are copied: they may go once accel_build returns.
+ * Triangle i has the vertices indices[3i], indices[3i+1], indices[3i+2].
+ * The test is the watertight shear test of Woop, Benthin and Wald (JCGT 2(1), 2013) in double,
+ * redone in wider precision where an edge function is zero: closed meshes do not leak. Both sides
+ * of a triangle are hit; one seen exactly edge-on is not. */
+typedef struct accel_triangles {
+    const void *vertices;    /* x, y, z of vertex j start at byte j * vertex_stride */
+    bool vertices_are_float; /* x, y, z are float, otherwise double */
+    size_t vertex_stride;    /* bytes; 0 stands for tightly packed */
+    uint32_t vertex_count;
+    const uint32_t *indices; /* 3 * count of them, each < vertex_count */
+    uint32_t count;          /* triangles */
+} accel_triangles;
+
+/* Spheres, copied. Both crossings are hits. Roots after Hearn and Baker as in Haines et al.,
+ * "Precision improvements for ray/sphere intersection", Ray Tracing Gems, 2019. */
+typedef struct accel_spheres {
+    const double *spheres; /* x, y, z, radius of sphere i start at byte i * stride; radius > 0 */
+    size_t stride;         /* bytes; 0 stands for tightly packed */
+    uint32_t count;
+} accel_spheres;
+
+/* How the hits that a callback reports are ordered. */
+typedef enum accel_order {
+    /* By t clamped into the interval in which the ray is inside the object's padded box. hit.t is
+     * the t as reported. Every kind agrees by construction, whatever the callback reports. */
+    ACCEL_ORDER_KEY = 0,
+    /* By t as reported. Every kind agrees as long as no t lies before the ray enters the object's
+     * box; each one that does is counted in accel_query.outside. Pad the boxes by what your solver
+     * can be wrong. */
+    ACCEL_ORDER_RAW
+} accel_order;
+
+typedef struct accel_query accel_query;
+
+/* What an object's callback sees of one query, and where it reports its hits. */
+typedef struct accel_probe {
+    const accel_ray *ray; /* the caller's ray */
+    void *user;           /* accel_objects.user */
+    accel_query *query;   /* the caller's accel_query, or NULL */
+    uint32_t prim;        /* index of the object in its geometry */
+    double limit;         /* a hit with t > limit cannot matter; one with t == limit may */
+} accel_probe;
+
+/* Tests one object: calls accel_report for each hit in the ray's interval, in any order. It may
+ * run queries on this or any other structure, and may leave by a C++ exception: the library holds
+ * nothing across the call. An object may be tested more than once in one query. */
+typedef void accel_intersect(accel_probe *probe);
+
+/* Reports a hit of the probed object. Returns true if the hit counts for now: for a closest query
+ * it is the best so far (keep what you need to shade it), for others it is accepted. A t outside
+ * the ray's interval or NaN is ignored. Only inside accel_intersect. */
+ACCEL_API bool accel_report(accel_probe *probe, double t, double u, double v);
+
+/* Host objects: the library knows their boxes (copied) and asks back for the hits. */
+typedef struct accel_objects {
+    const accel_box *boxes; /* infinite sides: tested for every ray; an inverted box is invalid */
+    uint32_t count;
+    accel_order order;
+    accel_intersect *intersect;
+    void *user; /* handed to intersect */
+} accel_objects;
+
+typedef enum accel_type { ACCEL_TRIANGLES = 0, ACCEL_SPHERES, ACCEL_OBJECTS } accel_type;
+
+typedef struct accel_geometry {
+    accel_type type;
+    union {
+        accel_triangles triangles;
+        accel_spheres spheres;
+        accel_objects objects;
+    };
+} accel_geometry;
+
+typedef struct accel_scene {
+    const accel_geometry *geometries;
+    uint32_t count;
+} accel_scene;
+
+/* ----------------------------------------------------------------- build ---- */
+
+/* All hooks are optional. They must return normally (no exceptions, no longjmp). */
+typedef struct accel_hooks {
+    void *user; /* handed to both */
+    /* Lua's allocator in one function: to == 0 frees and returns NULL; old == NULL allocates;
+     * otherwise resizes. Returns NULL if it cannot, leaving the old block alone. NULL: realloc.
+     * Called from the thread that runs accel_build or accel_free; kept until accel_free. */
+    void *(*resize)(void *user, void *old, size_t from, size_t to);
+    /* Called at least about every 10 ms of a build with the name of the phase and its done part
+     * in 0..1; return false to cancel. */
+    bool (*progress)(void *user, const char *phase, double done);
+} accel_hooks;
+
+/* Builds the structure that `config` names over `scene`.
+ *
+ * config: "kind[:key=value[,key=value]...]", for example "octree:leaf=12,depth=10"; accel_kinds
+ * lists what there is. NULL or "" stand for ACCEL_DEFAULT_CONFIG. No option ever has to be given.
+ *
+ * Primitives with a NaN or infinite coordinate, an inverted box, a radius that is not positive or a
+ * coordinate beyond ACCEL_MAX_COORDINATE are skipped, counted and their first ids kept in
+ * accel_info; so are, counted apart, triangles with two equal vertices, which no ray can hit. Ids
+ * of the others do not change.
+ *
+ * Returns ACCEL_OK and stores the structure in *out, which the caller ends with accel_free.
+ * Otherwise returns why, sets *out to NULL, fills *error (which may be NULL) and holds nothing.
+ * Errors: ACCEL_BAD_ARGUMENT, ACCEL_BAD_CONFIG, ACCEL_NO_MEMORY, ACCEL_TOO_LARGE, ACCEL_CANCELLED.
+ */
+ACCEL_API accel_status accel_build(accel **out, const accel_scene *scene, const char *config,
+                                   const accel_hooks *hooks, accel_error *error);
+
+#define ACCEL_DEFAULT_CONFIG "hoo"
+
+/* Ends `a` and frees all that it holds. NULL is allowed. No query may be running. */
+ACCEL_API void accel_free(accel *a);
+
+/* --------------------------------------------------------------- queries ---- */
+
+/* One per thread, optional in every query. Set it to zero once; the library only adds to it. */
+struct accel_query {
+    void *user;       /* the caller's, for its callbacks */
+    uint64_t nodes;   /* nodes and cells visited */
+    uint64_t tests;   /* primitives tested */
+    uint64_t refused; /* rays that were not valid: see accel_ray */
+    uint64_t outside; /* raw hits before their object's padded box: see ACCEL_ORDER_RAW */
+};
+
+/* Finds the nearest hit. Returns true and fills *hit, or returns false and leaves *hit alone. */
+ACCEL_API bool accel_closest(const accel *a, const accel_ray *ray, accel_hit *hit,
+                             accel_query *query);
+
+/* Is there any hit in the ray's interval? The same as accel_closest finding one, but sooner. */
+ACCEL_API bool accel_any(const accel *a, const accel_ray *ray, accel_query *query);
+
+/* Receives one hit; returns false to end the query. */
+typedef bool accel_visit_hit(void *user, const accel_hit *hit);
+
+/* Visits every hit in order of (t, geometry, primitive), each exactly once (two hits of one
+ * primitive at one t are one). Allocates nothing: hits are gathered in fixed batches, one walk for
+ * each. Returns false if the visitor ended the query. */
+ACCEL_API bool accel_all(const accel *a, const accel_ray *ray, accel_visit_hit *visit, void *user,
+                         accel_query *query);
+
+/* Receives one primitive; returns false to end the query. */
+typedef bool accel_visit_id(void *user, accel_id id);
+
+/* Visits every primitive whose padded box holds `point`, by increasing (geometry, primitive), each
+ * once. Returns false if the visitor ended the query. */
+ACCEL_API bool accel_point(const accel *a, const double point[3], accel_visit_id *visit, void *user,
+                           accel_query *query);
+
+/* ----------------------------------------------------------- description ---- */
+
+/* One option of a kind. A number unless `words` is given. */
+typedef struct accel_option {
+    const char *key;
+    const char *meaning;      /* one line, with its unit */
+    const char *const *words; /* legal words, ended by NULL; NULL for a number */
+    double min, max;          /* of a number, inclusive */
+    double standard;          /* default: the number, the index of the word, or NAN for "auto" */
+    bool whole;               /* a number without fraction */
+} accel_option;
+
+/* One kind of structure. */
+typedef struct accel_kind_info {
+    const char *name;
+    const char *summary;         /* one line */
+    const accel_option *options; /* `option_count` of them */
+    size_t option_count;
+} accel_kind_info;
+
+/* The kinds compiled into this library, `*count` of them: the table that the parser uses. */
+ACCEL_API const accel_kind_info *const *accel_kinds(size_t *count);
+
+enum { ACCEL_INFO_PHASES = 8, ACCEL_INFO_IDS = 10, ACCEL_INFO_NOTES = 8 };
+
+/* What was built. Strings live as long as the structure. */
+typedef struct accel_info {
+    const char *kind;
+    char config[256]; /* the resolved config: every option with its value; builds the same again */
+    uint64_t primitives;                  /* in the scene, skipped ones included */
+    uint64_t skipped;                     /* invalid: see accel_build */
+    uint64_t degenerate;                  /* triangles that no ray can hit, left out */
+    uint64_t unbounded;                   /* objects with an infinite side, tested for every ray */
+    accel_id skipped_ids[ACCEL_INFO_IDS]; /* the first of them */
+    uint32_t size_classes;                /* 0 where the kind has none, as below */
+    uint32_t clusters;
+    uint64_t nodes;      /* inner nodes */
+    uint64_t leaves;     /* leaves or cells that hold something */
+    uint64_t references; /* entries in all leaves together */
+    uint32_t depth;      /* deepest leaf; the root has depth 0 */
+    uint64_t bytes;      /* held now */
+    uint64_t peak_bytes; /* held at most during the build */
+    double seconds;      /* the whole build, wall clock */
+    uint32_t phase_count;
+    struct {
+        const char *name;
+        double seconds;
+    } phases[ACCEL_INFO_PHASES];
+    uint32_t note_count; /* what was left out, and why; limits that were met */
+    char notes[ACCEL_INFO_NOTES][160];
+} accel_info;
+
+/* Describes `a`. */
+ACCEL_API void accel_describe(const accel *a, accel_info *info);
+
+/* The padded box that the library uses for a primitive: its box grown outward by 2^-44 of its
+ * largest coordinate. Returns false for a primitive that was skipped or does not exist. */
+ACCEL_API bool accel_padded_box(const accel *a, accel_id id, accel_box *box);
+
+/* Walks the whole structure and checks every invariant that the exactness proof needs: every
+ * primitive is in every cell that its box meets, boxes contain what is below them, indices are in
+ * range, depth is within its cap. Takes time linear in the structure's size.
+ * Returns ACCEL_OK, or ACCEL_BROKEN with the first violation in *error. */
+ACCEL_API accel_status accel_validate(const accel *a, accel_error *error);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
