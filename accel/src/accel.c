@@ -1,0 +1,191 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * The list of kinds, and the life of a structure: build, describe, validate, free.
+ */
+#include "config.h"
+#include "box.h"
+#include "kind.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+extern const struct accel_kind linear_kind, octree_kind;
+
+/* A new kind: its file, and one line here. */
+const accel_kind_info *const kinds[] = {
+    &linear_kind.info,
+    &octree_kind.info,
+    NULL,
+};
+
+const accel_kind_info *const *accel_kinds(size_t *count)
+{
+    *count = sizeof kinds / sizeof *kinds - 1;
+    return kinds;
+}
+
+static double seconds_since(const struct timespec *start)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)(now.tv_sec - start->tv_sec) + 1e-9 * (double)(now.tv_nsec - start->tv_nsec);
+}
+
+static void end_phase(struct build *build)
+{
+    accel_info *info = &build->a->info;
+    if (build->phase && info->phase_count < ACCEL_INFO_PHASES) {
+        info->phases[info->phase_count].name = build->phase;
+        info->phases[info->phase_count].seconds = seconds_since(&build->phase_start);
+        info->phase_count++;
+    }
+    build->phase = NULL;
+}
+
+void build_phase(struct build *build, const char *name)
+{
+    end_phase(build);
+    build->phase = name;
+    clock_gettime(CLOCK_MONOTONIC, &build->phase_start);
+}
+
+bool build_tick(struct build *build, double done)
+{
+    const double seconds_between = 0.005;
+    if (!build->hooks->progress || seconds_since(&build->last_tick) < seconds_between)
+        return true;
+    clock_gettime(CLOCK_MONOTONIC, &build->last_tick);
+    if (build->hooks->progress(build->hooks->user, build->phase, done))
+        return true;
+    error_set(build->error, ACCEL_CANCELLED, "build %s: cancelled in phase '%s'; nothing was built",
+              build->a->kind->info.name, build->phase);
+    return false;
+}
+
+bool build_no_memory(struct build *build)
+{
+    const struct memory *m = &build->a->memory;
+    error_set(build->error, ACCEL_NO_MEMORY,
+              "build %s: no memory for a block of %zu bytes in phase '%s', %zu bytes were held; "
+              "nothing was built",
+              build->a->kind->info.name, m->refused, build->phase, m->bytes);
+    return false;
+}
+
+void build_note(struct build *build, const char *format, ...)
+{
+    accel_info *info = &build->a->info;
+    if (info->note_count == ACCEL_INFO_NOTES)
+        return;
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(info->notes[info->note_count], sizeof info->notes[0], format, arguments);
+    va_end(arguments);
+    info->note_count++;
+}
+
+/* Copies the scene and builds the kind over it. */
+static bool run(struct build *build, const accel_scene *scene)
+{
+    struct accel *a = build->a;
+    struct timespec start;
+    clock_gettime(CLOCK_MONOTONIC, &start);
+    build->last_tick = start;
+    build_phase(build, "copy");
+    if (!primitives_copy(build, scene))
+        return false;
+    if (a->prims.bounded.count > 0) {
+        build_phase(build, "build");
+        if (!a->kind->build(build))
+            return false;
+    }
+    end_phase(build);
+    a->info.kind = a->kind->info.name;
+    config_print(a->kind, a->option, a->info.config, sizeof a->info.config);
+    a->info.seconds = seconds_since(&start);
+    return true;
+}
+
+static accel *allocate(const struct accel_kind *kind, const accel_hooks *hooks, accel_error *error)
+{
+    struct memory m = {hooks->resize ? hooks->resize : memory_system, hooks->user, 0, 0, 0};
+    accel *a = memory_resize(&m, NULL, 0, kind->size);
+    if (!a) {
+        error_set(error, ACCEL_NO_MEMORY, "build %s: no memory for %zu bytes; nothing was built",
+                  kind->info.name, kind->size);
+        return NULL;
+    }
+    memset(a, 0, kind->size);
+    a->kind = kind;
+    a->memory = m;
+    return a;
+}
+
+accel_status accel_build(accel **out, const accel_scene *scene, const char *config,
+                         const accel_hooks *hooks, accel_error *error)
+{
+    static const accel_hooks no_hooks = {NULL, NULL, NULL};
+    accel_error ignored;
+    double option[MAX_OPTIONS];
+    error = error ? error : &ignored;
+    hooks = hooks ? hooks : &no_hooks;
+    error->status = ACCEL_OK;
+    error->text[0] = '\0';
+    if (out)
+        *out = NULL;
+    if (!out || !scene || (scene->count > 0 && !scene->geometries))
+        return error_set(error, ACCEL_BAD_ARGUMENT, "build: %s is NULL; nothing was built",
+                         !out     ? "out"
+                         : !scene ? "scene"
+                                  : "scene.geometries");
+    const struct accel_kind *kind = config_parse(config, option, error);
+    accel *a = kind ? allocate(kind, hooks, error) : NULL;
+    if (!a)
+        return error->status;
+    memcpy(a->option, option, sizeof option);
+    struct build build = {.a = a, .hooks = hooks, .error = error};
+    if (!run(&build, scene)) {
+        accel_free(a);
+        return error->status;
+    }
+    *out = a;
+    return ACCEL_OK;
+}
+
+void accel_free(accel *a)
+{
+    if (!a)
+        return;
+    a->kind->release(a);
+    primitives_free(&a->memory, &a->prims);
+    struct memory m = a->memory;
+    memory_resize(&m, a, a->kind->size, 0);
+}
+
+void accel_describe(const accel *a, accel_info *info)
+{
+    *info = a->info;
+    info->bytes = a->memory.bytes;
+    info->peak_bytes = a->memory.peak;
+}
+
+bool accel_padded_box(const accel *a, accel_id id, accel_box *box)
+{
+    const struct primitives *p = &a->prims;
+    if (id.geom >= p->geometry_count || id.prim >= p->geometry[id.geom].count)
+        return false;
+    *box = p->box[p->geometry[id.geom].first + id.prim];
+    return box->lo[0] <= box->hi[0];
+}
+
+accel_status accel_validate(const accel *a, accel_error *error)
+{
+    accel_error ignored;
+    error = error ? error : &ignored;
+    error->status = ACCEL_OK;
+    error->text[0] = '\0';
+    if (a->prims.bounded.count > 0)
+        a->kind->validate(a, error);
+    return error->status;
+}

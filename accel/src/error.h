@@ -1,0 +1,14 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * One line of error text in the caller's struct. The first error is kept.
+ */
+#ifndef ACCEL_ERROR_H
+#define ACCEL_ERROR_H
+
+#include "accel/accel.h"
+
+/* Notes status and text unless `error` already holds one. Returns the status that it holds. */
+__attribute__((format(printf, 3, 4))) accel_status
+error_set(accel_error *error, accel_status status, const char *format, ...);
+
+#endif

@@ -1,0 +1,69 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * What a kind of structure is to the rest of the library: one static table of functions.
+ * A new kind is one file that fills an `accel_kind`, and one line in the list in accel.c.
+ */
+#ifndef ACCEL_KIND_H
+#define ACCEL_KIND_H
+
+#include <time.h>
+
+#include "accel/accel.h"
+#include "error.h"
+#include "memory.h"
+#include "primitives.h"
+
+struct query;
+
+enum { MAX_OPTIONS = 12 };
+
+/* The parts that every structure has. A kind's own struct embeds it as its first member. */
+struct accel {
+    const struct accel_kind *kind; /* how it was built, how it is walked */
+    struct memory memory;          /* what it holds */
+    struct primitives prims;       /* what it is built over */
+    double option[MAX_OPTIONS];    /* by the kind's option index; NAN stands for auto */
+    accel_info info;               /* as accel_describe hands it out */
+};
+
+/* One build under way. */
+struct build {
+    struct accel *a;             /* what is built */
+    const accel_hooks *hooks;    /* never NULL */
+    accel_error *error;          /* first error; never NULL */
+    const char *phase;           /* name of the phase under way */
+    struct timespec phase_start; /* when it began */
+    struct timespec last_tick;   /* when the progress hook was last called */
+};
+
+struct accel_kind {
+    accel_kind_info info; /* name, summary, options; the first member: see kinds */
+    size_t size;          /* of the kind's struct */
+    /* Builds over a->prims.bounded, which is not empty; reads a->option and writes back what auto
+     * became; fills the counts in a->info. False: build->error says why, `release` cleans up. */
+    bool (*build)(struct build *build);
+    /* Offers to the query every primitive that could win: see query.h. */
+    void (*walk)(const struct accel *a, struct query *q);
+    /* Checks the invariants of the file's head. False: *error says what is broken. */
+    bool (*validate)(const struct accel *a, accel_error *error);
+    /* Frees what build allocated, also after a build that failed half-way. */
+    void (*release)(struct accel *a);
+};
+
+/* The kinds, NULL-ended; each is the `info` of an accel_kind. */
+extern const accel_kind_info *const kinds[];
+
+/* Starts the next phase of the build and notes the time of the last one. */
+void build_phase(struct build *build, const char *name);
+
+/* Tells the progress hook how far the phase is, in 0..1, at most every few milliseconds; call it
+ * often. False if the build is cancelled. */
+bool build_tick(struct build *build, double done);
+
+/* Notes that memory ran out, which the failed allocation left in a->memory. Returns false. */
+bool build_no_memory(struct build *build);
+
+/* Adds a line to accel_info.notes: what was left out and why, or a limit that was met. */
+__attribute__((format(printf, 2, 3))) void build_note(struct build *build, const char *format, ...);
+
+#endif

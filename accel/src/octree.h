@@ -1,0 +1,84 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * An octree over some primitives, as a part that the kinds octree and hoo are made of.
+ *
+ * Encoding: a cell is a leaf, a run of references to primitives, or an inner node. A node halves
+ * its cell by one plane per axis, stored once for all eight children; it has a mask of the
+ * children that hold something, which are consecutive cells. Child bits: 1 upper x, 2 upper y,
+ * 4 upper z. A plane at infinity leaves its axis whole: every primitive meets both halves, so
+ * halving would only list all of them twice. Empty cells are not stored. The cells' boxes are not
+ * stored either: they follow from the root's box and the planes.
+ *
+ * Invariant: every primitive is listed in every leaf whose closed cell meets its padded box; the
+ * root's box contains them all.
+ *
+ * Cost: references grow with how many primitives lie on planes; a walk visits about as many cells
+ * as the ray crosses. Bad at: long thin primitives across many cells; large flat ones.
+ */
+#ifndef ACCEL_OCTREE_H
+#define ACCEL_OCTREE_H
+
+#include "kind.h"
+#include "query.h"
+
+/* Cells deeper than this are not split, so a walk's stack is at most OCTREE_MAX_DEPTH levels. At
+ * depth 40 a cell's side is 1e-12 of the root's. */
+enum { OCTREE_MAX_DEPTH = 40 };
+
+/* A leaf with `count` references from `first` on, or, if count is 0, the inner node `first`. */
+struct octree_cell {
+    uint32_t first, count;
+};
+
+struct octree_node {
+    double plane[3]; /* where the cell is halved; INFINITY: this axis is left whole */
+    uint32_t first;  /* its first child in the pool's cells */
+    uint32_t mask;   /* bit c: child c holds something */
+};
+
+/* The parts of one or many octrees. */
+struct octree_pool {
+    ARRAY_OF(struct octree_node) nodes;
+    ARRAY_OF(struct octree_cell) cells;
+    ARRAY_OF(uint32_t) refs;
+};
+
+struct octree {
+    accel_box box;           /* of the root */
+    struct octree_cell root; /* never an empty leaf */
+};
+
+/* When a cell is split. */
+struct octree_rule {
+    double leaf;  /* cells of no more primitives are not; NAN: where the predicted cost is lower */
+    double depth; /* deeper cells are not; NAN: as deep as it pays */
+};
+
+/* Builds an octree over ids[0 .. count - 1], count > 0, all inside `box`. Adds to the counts in
+ * build->a->info; the progress of the phase runs from `from` to `to`. */
+bool octree_build(struct build *build, struct octree_pool *pool, struct octree *tree,
+                  const uint32_t *ids, size_t count, const accel_box *box, struct octree_rule rule,
+                  double from, double to);
+
+void octree_walk(const struct octree_pool *pool, const struct octree *tree, struct query *q);
+
+/* Checks the invariant for an octree over ids[0 .. count - 1]. */
+bool octree_validate(const accel *a, const struct octree_pool *pool, const struct octree *tree,
+                     const uint32_t *ids, size_t count, accel_error *error);
+
+void octree_pool_trim(struct memory *m, struct octree_pool *pool);
+void octree_pool_free(struct memory *m, struct octree_pool *pool);
+
+/* The options `leaf` and `depth`, for kinds that hold octrees. */
+#define OCTREE_LEAF_OPTION                                                                         \
+    {                                                                                              \
+        .key = "leaf", .meaning = "primitives that a cell may hold without being split", .min = 1, \
+        .max = 1e9, .standard = NAN, .whole = true                                                 \
+    }
+#define OCTREE_DEPTH_OPTION                                                                        \
+    {                                                                                              \
+        .key = "depth", .meaning = "levels below the root", .min = 0, .max = OCTREE_MAX_DEPTH,     \
+        .standard = NAN, .whole = true                                                             \
+    }
+
+#endif

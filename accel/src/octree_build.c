@@ -1,0 +1,327 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * Building an octree: top-down, depth first, children appended behind their parents.
+ *
+ * Where leaf or depth are left to the builder, it goes deep and then collapses, bottom-up, every
+ * subtree that a leaf would beat by predicted cost (the surface-area heuristic of MacDonald and
+ * Booth, 1990, applied to octrees as in Aronov et al., CGTA 34, 2006): exact for the tree that was
+ * grown, and no parameter. Two rules end the growth: a budget of references, which a cell hands
+ * down in proportion, bounds the whole tree; and no more than LOOKAHEAD splits in a row may fail
+ * to lower the cost, as one split alone rarely pays.
+ */
+#include "octree.h"
+
+#include <string.h>
+
+/* Cost of visiting a node; the cost of a test is primitives.test_cost of them. */
+#define NODE_COST 1.0
+
+/* References that a tree may have, in multiples of its primitives. */
+enum { BUDGET = 10 };
+
+/* Splits in a row that may fail to lower the predicted cost. */
+enum { LOOKAHEAD = 2 };
+
+/* What is the same for all cells of one octree. */
+struct grower {
+    struct build *build;
+    struct octree_pool *pool;
+    const accel_box *box; /* padded boxes by id */
+    struct octree_rule rule;
+    struct ids stack;      /* the ids of the cells on the way down */
+    uint8_t *children;     /* of the cell being split: which children each primitive meets */
+    double done, from, to; /* volume finished, as a share of the root; progress range */
+    uint32_t depth;        /* deepest leaf so far */
+};
+
+/* One cell to grow. */
+struct task {
+    accel_box box;   /* the cell */
+    size_t begin;    /* its ids in grower.stack */
+    uint32_t count;  /* of them */
+    uint32_t depth;  /* of the cell */
+    uint32_t failed; /* splits in a row that did not lower the cost */
+    double budget;   /* references that it may become */
+};
+
+/* How a cell would be split. */
+struct split {
+    double plane[3];
+    uint32_t count[8]; /* primitives by child */
+    double sum;        /* of them */
+};
+
+static bool axis_splits(double lo, double plane, double hi)
+{
+    return lo < plane && plane < hi;
+}
+
+/* The children that a box meets, as bits. */
+static uint32_t children_of(const accel_box *b, const double plane[3])
+{
+    static const uint32_t lower[3] = {0x55, 0x33, 0x0f};
+    uint32_t mask = 0xff;
+    for (int k = 0; k < 3; k++)
+        mask &= (b->lo[k] <= plane[k] ? lower[k] : 0) | (b->hi[k] >= plane[k] ? ~lower[k] : 0);
+    return mask;
+}
+
+static accel_box child_box(const accel_box *cell, const double plane[3], uint32_t child)
+{
+    accel_box b = *cell;
+    for (int k = 0; k < 3; k++) {
+        if (plane[k] == (double)INFINITY)
+            continue;
+        *(child >> k & 1 ? &b.lo[k] : &b.hi[k]) = plane[k];
+    }
+    return b;
+}
+
+/* The planes that halve the cell, except those that every primitive would lie on. */
+static void place_planes(const struct grower *g, const struct task *t, double plane[3])
+{
+    uint32_t across[3] = {0, 0, 0};
+    for (int k = 0; k < 3; k++) {
+        plane[k] = t->box.lo[k] + 0.5 * (t->box.hi[k] - t->box.lo[k]);
+        if (!axis_splits(t->box.lo[k], plane[k], t->box.hi[k]))
+            plane[k] = (double)INFINITY;
+    }
+    for (uint32_t i = 0; i < t->count; i++) {
+        const accel_box *b = &g->box[g->stack.at[t->begin + i]];
+        for (int k = 0; k < 3; k++)
+            across[k] += b->lo[k] <= plane[k] && plane[k] <= b->hi[k];
+    }
+    for (int k = 0; k < 3; k++)
+        if (across[k] == t->count)
+            plane[k] = (double)INFINITY;
+}
+
+static void count_children(struct grower *g, const struct task *t, struct split *s)
+{
+    for (uint32_t i = 0; i < t->count; i++) {
+        const uint32_t mask = children_of(&g->box[g->stack.at[t->begin + i]], s->plane);
+        g->children[i] = (uint8_t)mask;
+        for (int c = 0; c < 8; c++)
+            s->count[c] += mask >> c & 1;
+    }
+    for (int c = 0; c < 8; c++)
+        s->sum += s->count[c];
+}
+
+/* The cost of the cell if the split were the last. */
+static double split_cost(const struct grower *g, const struct task *t, const struct split *s)
+{
+    double tests = 0.0;
+    for (uint32_t c = 0; c < 8; c++) {
+        const accel_box b = child_box(&t->box, s->plane, c);
+        tests += box_chance(&b, &t->box) * s->count[c];
+    }
+    return NODE_COST + g->build->a->prims.test_cost * tests;
+}
+
+static double leaf_cost(const struct grower *g, uint32_t count)
+{
+    return g->build->a->prims.test_cost * count;
+}
+
+/* Is the cell a leaf before any split is tried? */
+static bool small_enough(const struct grower *g, const struct task *t)
+{
+    const double leaf = isnan(g->rule.leaf) ? 1 : g->rule.leaf;
+    const double depth = isnan(g->rule.depth) ? OCTREE_MAX_DEPTH : g->rule.depth;
+    return t->count <= leaf || t->depth >= depth;
+}
+
+/* Finds a split. False if there is none that may be made. */
+static bool find_split(struct grower *g, struct task *t, struct split *s)
+{
+    *s = (struct split){.sum = 0};
+    place_planes(g, t, s->plane);
+    if (isinf(s->plane[0]) && isinf(s->plane[1]) && isinf(s->plane[2]))
+        return false;
+    count_children(g, t, s);
+    if (!isnan(g->rule.depth))
+        return true;
+    if (s->sum > t->budget)
+        return false;
+    t->failed = split_cost(g, t, s) < leaf_cost(g, t->count) ? 0 : t->failed + 1;
+    return t->failed <= LOOKAHEAD;
+}
+
+static double volume_share(uint32_t depth)
+{
+    return ldexp(1.0, -3 * (int)depth);
+}
+
+static bool make_leaf(struct grower *g, const struct task *t, struct octree_cell *cell)
+{
+    struct memory *m = &g->build->a->memory;
+    const size_t first = g->pool->refs.count;
+    if (first + t->count > ACCEL_NONE) {
+        error_set(g->build->error, ACCEL_TOO_LARGE,
+                  "build %s: more than 4294967295 references; nothing was built, allow more "
+                  "primitives per leaf or less depth",
+                  g->build->a->kind->info.name);
+        return false;
+    }
+    if (!array_extend(m, &g->pool->refs, t->count))
+        return build_no_memory(g->build);
+    memcpy(g->pool->refs.at + first, g->stack.at + t->begin, t->count * sizeof(uint32_t));
+    *cell = (struct octree_cell){(uint32_t)first, t->count};
+    g->depth = t->depth > g->depth ? t->depth : g->depth;
+    g->done += volume_share(t->depth);
+    return build_tick(g->build, g->from + (g->to - g->from) * fmin(g->done, 1.0));
+}
+
+/* Pushes the ids of each child, one run after the other. */
+static bool push_children(struct grower *g, const struct task *t, const struct split *s)
+{
+    const size_t base = g->stack.count;
+    if (!array_extend(&g->build->a->memory, &g->stack, (size_t)s->sum))
+        return build_no_memory(g->build);
+    size_t next[8], at = base;
+    for (int c = 0; c < 8; c++) {
+        next[c] = at;
+        at += s->count[c];
+    }
+    for (uint32_t i = 0; i < t->count; i++)
+        for (uint32_t mask = g->children[i]; mask; mask &= mask - 1)
+            g->stack.at[next[__builtin_ctz(mask)]++] = g->stack.at[t->begin + i];
+    return true;
+}
+
+/* What a subtree adds to the pool is taken back by going to its mark. */
+struct mark {
+    size_t nodes, cells, refs;
+};
+
+static struct mark mark(const struct octree_pool *p)
+{
+    return (struct mark){p->nodes.count, p->cells.count, p->refs.count};
+}
+
+static void take_back(struct octree_pool *p, struct mark m)
+{
+    p->nodes.count = m.nodes;
+    p->cells.count = m.cells;
+    p->refs.count = m.refs;
+}
+
+static bool grow(struct grower *g, struct task *t, struct octree_cell *cell, double *cost);
+
+/* Makes room for a node and its children. */
+static bool make_node(struct grower *g, const struct split *s, struct octree_cell *cell)
+{
+    struct octree_pool *p = g->pool;
+    struct memory *m = &g->build->a->memory;
+    struct octree_node node = {
+        {s->plane[0], s->plane[1], s->plane[2]}, (uint32_t)p->cells.count, 0};
+    for (uint32_t c = 0; c < 8; c++)
+        node.mask |= (uint32_t)(s->count[c] > 0) << c;
+    if (!array_extend(m, &p->nodes, 1) ||
+        !array_extend(m, &p->cells, (size_t)__builtin_popcount(node.mask)))
+        return build_no_memory(g->build);
+    *cell = (struct octree_cell){(uint32_t)p->nodes.count - 1, 0};
+    p->nodes.at[cell->first] = node;
+    return true;
+}
+
+/* Grows the children of a node just made; their expected cost goes into *cost. */
+static bool grow_children(struct grower *g, const struct task *t, const struct split *s,
+                          const struct octree_cell *cell, double *cost)
+{
+    size_t begin = g->stack.count - (size_t)s->sum;
+    uint32_t at = g->pool->nodes.at[cell->first].first;
+    *cost = NODE_COST;
+    for (uint32_t c = 0; c < 8; c++) {
+        if (s->count[c] == 0) {
+            g->done += volume_share(t->depth + 1);
+            continue;
+        }
+        const double share = s->count[c] / s->sum;
+        struct task child = {child_box(&t->box, s->plane, c),
+                             begin,
+                             s->count[c],
+                             t->depth + 1,
+                             t->failed,
+                             t->budget * share};
+        struct octree_cell made;
+        double child_cost;
+        if (!grow(g, &child, &made, &child_cost))
+            return false;
+        g->pool->cells.at[at++] = made;
+        *cost += box_chance(&child.box, &t->box) * child_cost;
+        begin += s->count[c];
+    }
+    return true;
+}
+
+/* Grows one cell; its expected cost goes into *cost. */
+static bool grow(struct grower *g, struct task *t, struct octree_cell *cell, double *cost)
+{
+    struct split s;
+    *cost = leaf_cost(g, t->count);
+    if (small_enough(g, t) || !find_split(g, t, &s))
+        return make_leaf(g, t, cell);
+    const struct mark before = mark(g->pool);
+    const size_t stacked = g->stack.count;
+    const double done = g->done;
+    double inner;
+    if (!push_children(g, t, &s) || !make_node(g, &s, cell) ||
+        !grow_children(g, t, &s, cell, &inner))
+        return false;
+    g->stack.count = stacked;
+    if (isnan(g->rule.leaf) && inner >= *cost) {
+        take_back(g->pool, before);
+        g->done = done;
+        return make_leaf(g, t, cell);
+    }
+    *cost = inner;
+    return true;
+}
+
+static bool prepare(struct grower *g, const uint32_t *ids, size_t count)
+{
+    struct memory *m = &g->build->a->memory;
+    g->children = memory_resize(m, NULL, 0, count);
+    if (!g->children || !array_extend(m, &g->stack, count))
+        return build_no_memory(g->build);
+    memcpy(g->stack.at, ids, count * sizeof *ids);
+    return true;
+}
+
+bool octree_build(struct build *build, struct octree_pool *pool, struct octree *tree,
+                  const uint32_t *ids, size_t count, const accel_box *box, struct octree_rule rule,
+                  double from, double to)
+{
+    struct grower g = {.build = build,
+                       .pool = pool,
+                       .box = build->a->prims.box,
+                       .rule = rule,
+                       .from = from,
+                       .to = to};
+    struct task root = {*box, 0, (uint32_t)count, 0, 0, BUDGET * (double)count};
+    struct memory *m = &build->a->memory;
+    double cost;
+    const bool fine = prepare(&g, ids, count) && grow(&g, &root, &tree->root, &cost);
+    tree->box = *box;
+    if (g.children)
+        memory_resize(m, g.children, count, 0);
+    array_free(m, &g.stack);
+    build->a->info.depth = g.depth > build->a->info.depth ? g.depth : build->a->info.depth;
+    return fine;
+}
+
+void octree_pool_trim(struct memory *m, struct octree_pool *pool)
+{
+    array_trim(m, &pool->nodes);
+    array_trim(m, &pool->cells);
+    array_trim(m, &pool->refs);
+}
+
+void octree_pool_free(struct memory *m, struct octree_pool *pool)
+{
+    array_free(m, &pool->nodes);
+    array_free(m, &pool->cells);
+    array_free(m, &pool->refs);
+}

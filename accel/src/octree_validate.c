@@ -1,0 +1,108 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * Checks an octree against its definition, independently of how it was built: hands every
+ * primitive down to the cells that its box meets and compares what arrives with what is listed.
+ */
+#include "octree.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* What is the same for all cells. */
+struct checker {
+    const accel *a;
+    const struct octree_pool *pool;
+    accel_error *error;
+};
+
+static bool broken(const struct checker *c, const char *what, uint32_t number)
+{
+    error_set(c->error, ACCEL_BROKEN, "%s: %s %u", c->a->kind->info.name, what, number);
+    return false;
+}
+
+/* The ids whose boxes meet the cell, in a new array of *kept. */
+static uint32_t *meeting(const struct checker *c, const uint32_t *ids, size_t count,
+                         const accel_box *cell, size_t *kept)
+{
+    uint32_t *list = malloc((count ? count : 1) * sizeof *list);
+    if (!list) {
+        error_set(c->error, ACCEL_NO_MEMORY, "validate: no memory for %zu ids", count);
+        return NULL;
+    }
+    *kept = 0;
+    for (size_t i = 0; i < count; i++)
+        if (box_overlaps(&c->a->prims.box[ids[i]], cell))
+            list[(*kept)++] = ids[i];
+    return list;
+}
+
+static bool check_leaf(const struct checker *c, const struct octree_cell *cell, const uint32_t *ids,
+                       size_t count)
+{
+    if ((size_t)cell->first + cell->count > c->pool->refs.count)
+        return broken(c, "a leaf ends behind the references, first", cell->first);
+    if (cell->count != count ||
+        memcmp(c->pool->refs.at + cell->first, ids, count * sizeof *ids) != 0)
+        return broken(c, "a leaf does not list what its cell meets, first reference", cell->first);
+    return true;
+}
+
+static bool check_cell(const struct checker *c, const struct octree_cell *cell,
+                       const accel_box *box, const uint32_t *ids, size_t count, uint32_t depth);
+
+static bool check_child(const struct checker *c, const struct octree_node *node, uint32_t child,
+                        const accel_box *parent, const uint32_t *ids, size_t count, uint32_t depth)
+{
+    accel_box box = *parent;
+    for (int k = 0; k < 3; k++) {
+        if (isinf(node->plane[k]) && child >> k & 1)
+            return !(node->mask >> child & 1) ||
+                   broken(c, "a child beyond an infinite plane", child);
+        if (!isinf(node->plane[k]))
+            *(child >> k & 1 ? &box.lo[k] : &box.hi[k]) = node->plane[k];
+    }
+    size_t kept;
+    uint32_t *list = meeting(c, ids, count, &box, &kept);
+    if (!list)
+        return false;
+    const uint32_t below = node->mask & ((1u << child) - 1);
+    const struct octree_cell *cell =
+        &c->pool->cells.at[node->first + (uint32_t)__builtin_popcount(below)];
+    const bool fine = node->mask >> child & 1
+                          ? check_cell(c, cell, &box, list, kept, depth)
+                          : kept == 0 || broken(c, "an empty cell meets primitive", list[0]);
+    free(list);
+    return fine;
+}
+
+static bool check_cell(const struct checker *c, const struct octree_cell *cell,
+                       const accel_box *box, const uint32_t *ids, size_t count, uint32_t depth)
+{
+    if (depth > OCTREE_MAX_DEPTH || depth > c->a->info.depth)
+        return broken(c, "a cell lies too deep, at", depth);
+    if (cell->count > 0)
+        return check_leaf(c, cell, ids, count);
+    if (cell->first >= c->pool->nodes.count)
+        return broken(c, "a cell names a node that does not exist,", cell->first);
+    const struct octree_node *node = &c->pool->nodes.at[cell->first];
+    for (int k = 0; k < 3; k++)
+        if (!isinf(node->plane[k]) && !(box->lo[k] < node->plane[k] && node->plane[k] < box->hi[k]))
+            return broken(c, "a plane lies outside its cell, node", cell->first);
+    if (node->first + (size_t)__builtin_popcount(node->mask) > c->pool->cells.count)
+        return broken(c, "children end behind the cells, node", cell->first);
+    for (uint32_t child = 0; child < 8; child++)
+        if (!check_child(c, node, child, box, ids, count, depth + 1))
+            return false;
+    return true;
+}
+
+bool octree_validate(const accel *a, const struct octree_pool *pool, const struct octree *tree,
+                     const uint32_t *ids, size_t count, accel_error *error)
+{
+    const struct checker c = {a, pool, error};
+    for (size_t i = 0; i < count; i++)
+        if (!box_contains(&tree->box, &a->prims.box[ids[i]]))
+            return broken(&c, "the root does not contain primitive", ids[i]);
+    return check_cell(&c, &tree->root, &tree->box, ids, count, 0);
+}

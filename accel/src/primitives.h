@@ -1,0 +1,62 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * The scene's primitives, copied into flat arrays. Every primitive has one number, its id: the
+ * geometries laid end to end, so that the order of ids is the order of (geometry, primitive), and
+ * a tie between two hits goes to the lower id. Skipped primitives keep their ids.
+ *
+ * The padded box P' of each primitive is computed once and stored: computed again under another
+ * rounding mode it could leave the cells that were built around it.
+ */
+#ifndef ACCEL_PRIMITIVES_H
+#define ACCEL_PRIMITIVES_H
+
+#include "accel/accel.h"
+#include "memory.h"
+
+struct build;
+
+/* A list of ids. */
+struct ids {
+    uint32_t *at;       /* count of them */
+    size_t count, room; /* an array of memory.h */
+};
+
+/* One geometry. A triangle is 9 doubles (three vertices), a sphere 4 (centre, radius). */
+struct geometry {
+    accel_type type;
+    accel_order order;          /* of objects; triangles and spheres are ordered by key */
+    uint32_t first;             /* id of its primitive 0 */
+    uint32_t count;             /* primitives */
+    double *data;               /* the triangles or spheres, NULL for objects */
+    accel_intersect *intersect; /* of objects */
+    void *user;                 /* of objects */
+};
+
+struct primitives {
+    struct geometry *geometry; /* geometry_count of them, by first id */
+    uint32_t geometry_count;   /* of the scene */
+    uint32_t *geometry_of;     /* by id; NULL if there is but one geometry */
+    accel_box *box;            /* P' by id; empty (lo > hi) if skipped, endless if unbounded */
+    uint32_t count;            /* ids */
+    struct ids bounded;        /* what structures are built over, rising */
+    struct ids unbounded;      /* objects with an infinite side, rising */
+    double test_cost;          /* mean cost of a test in units of visiting a node */
+};
+
+/* Copies and checks the scene, filling the counts in build->a->info. False: see build->error. */
+bool primitives_copy(struct build *build, const accel_scene *scene);
+
+void primitives_free(struct memory *m, struct primitives *p);
+
+static inline const struct geometry *primitives_geometry(const struct primitives *p, uint32_t id)
+{
+    return p->geometry + (p->geometry_of ? p->geometry_of[id] : 0);
+}
+
+static inline accel_id primitives_name(const struct primitives *p, uint32_t id)
+{
+    const struct geometry *g = primitives_geometry(p, id);
+    return (accel_id){(uint32_t)(g - p->geometry), id - g->first};
+}
+
+#endif

@@ -1,0 +1,149 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * Testing one primitive against one query, and keeping the first hits.
+ */
+#include "query.h"
+
+#include "sphere.h"
+#include "triangle.h"
+
+/* A probe as the library sees it. The public part comes first, so accel_report finds the rest. */
+struct probing {
+    accel_probe probe;
+    struct query *q;
+    struct interval s; /* S of the object's padded box */
+    accel_order order; /* how its hits are ordered */
+    uint32_t id;       /* the object */
+};
+
+static bool before(double key, uint32_t id, const struct found *other)
+{
+    return key < other->key || (key == other->key && id < other->id);
+}
+
+static bool after(double key, uint32_t id, const struct found *other)
+{
+    return key > other->key || (key == other->key && id > other->id);
+}
+
+/* Keeps a hit if it is among the first `room`. A hit that is there already is not kept again, so
+ * a primitive may be tested any number of times. */
+static bool keep(struct query *q, const struct found *hit)
+{
+    if (q->batch && !after(hit->key, hit->id, &q->last))
+        return false;
+    uint32_t at = q->count;
+    while (at > 0 && before(hit->key, hit->id, &q->found[at - 1]))
+        at--;
+    if (at == q->room || (at > 0 && !after(hit->key, hit->id, &q->found[at - 1])))
+        return false;
+    if (q->count < q->room)
+        q->count++;
+    for (uint32_t i = q->count - 1; i > at; i--)
+        q->found[i] = q->found[i - 1];
+    q->found[at] = *hit;
+    if (q->any)
+        q->limit = -(double)INFINITY;
+    else if (q->count == q->room)
+        q->limit = q->found[q->count - 1].key;
+    return true;
+}
+
+static double clamp(double t, struct interval s)
+{
+    return t < s.a ? s.a : t > s.z ? s.z : t;
+}
+
+static bool inside(const struct query *q, double t)
+{
+    return q->tmin < t && t < q->tmax;
+}
+
+/* A native hit: t is clamped into S(P'), and a hit whose S(P') is empty is none. */
+static void offer(struct query *q, uint32_t id, double t, double u, double v)
+{
+    const struct interval s = query_box(q, &q->prims->box[id]);
+    if (!(s.a <= s.z) || isnan(t))
+        return;
+    const double key = clamp(t, s);
+    if (inside(q, key))
+        keep(q, &(struct found){key, key, u, v, id});
+}
+
+static void test_triangle(struct query *q, const struct geometry *g, uint32_t id)
+{
+    double t, u, v;
+    if (triangle_hit(q, g->data + 9 * (size_t)(id - g->first), &t, &u, &v))
+        offer(q, id, t, u, v);
+}
+
+static void test_sphere(struct query *q, const struct geometry *g, uint32_t id)
+{
+    double t[2];
+    const int roots = sphere_hits(q, g->data + 4 * (size_t)(id - g->first), t);
+    for (int i = 0; i < roots; i++)
+        offer(q, id, t[i], 0.0, 0.0);
+}
+
+/* `prune` leaves out an object that begins after the limit. Linear, the judge, does without. */
+static void test_object(struct query *q, const struct geometry *g, uint32_t id, bool prune)
+{
+    const struct interval s = query_box(q, &q->prims->box[id]);
+    if (!(s.a <= s.z) || (prune && s.a > q->limit))
+        return;
+    const double limit = g->order == ACCEL_ORDER_RAW && q->limit < q->tmax ? q->limit : q->tmax;
+    struct probing probing = {
+        {q->ray, g->user, q->caller, id - g->first, limit}, q, s, g->order, id};
+    g->intersect(&probing.probe);
+}
+
+bool accel_report(accel_probe *probe, double t, double u, double v)
+{
+    struct probing *p = (struct probing *)probe;
+    struct query *q = p->q;
+    if (isnan(t))
+        return false;
+    const bool raw = p->order == ACCEL_ORDER_RAW;
+    const double key = raw ? t : clamp(t, p->s);
+    if (!inside(q, key))
+        return false;
+    if (raw && t < p->s.a)
+        q->outside++;
+    return keep(q, &(struct found){key, t, u, v, p->id});
+}
+
+static void test(struct query *q, uint32_t id, bool prune)
+{
+    if (id == q->skip)
+        return;
+    q->tests++;
+    const struct geometry *g = primitives_geometry(q->prims, id);
+    if (q->point) {
+        const struct interval s = query_box(q, &q->prims->box[id]);
+        if (s.a <= s.z)
+            keep(q, &(struct found){0.0, 0.0, 0.0, 0.0, id});
+    } else if (g->type == ACCEL_TRIANGLES) {
+        test_triangle(q, g, id);
+    } else if (g->type == ACCEL_SPHERES) {
+        test_sphere(q, g, id);
+    } else {
+        test_object(q, g, id, prune);
+    }
+}
+
+void query_test_all(struct query *q, const uint32_t *ids, size_t count)
+{
+    for (size_t i = 0; i < count && !query_done(q); i++)
+        test(q, ids[i], false);
+}
+
+void query_test_list(struct query *q, const uint32_t *ids, size_t count)
+{
+    for (size_t i = 0; i < count && !query_done(q); i++) {
+        uint32_t *box = &q->mailbox[ids[i] % QUERY_MAILBOXES];
+        if (*box == ids[i])
+            continue;
+        *box = ids[i];
+        test(q, ids[i], true);
+    }
+}

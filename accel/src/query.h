@@ -1,0 +1,135 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * One query under way, and the rule that makes every kind give the same answer.
+ *
+ * A walk is a stream of candidates: a kind calls query_test_list for every primitive that could
+ * win, in any order, as often as it likes. The query keeps the `room` first hits by (key, id): one
+ * for a closest or any query, a batch for an all query. So closest, any, all and point queries are
+ * one walk.
+ *
+ * The interval S of a box (query_box) is the part of the ray inside it, grown by 2^-50 on both
+ * ends. Every step of it is monotone under any one rounding mode, so a larger box has a larger
+ * interval, also in floating point. A hit's key is its t clamped into S of the primitive's own
+ * padded box P'. Hence: if every node's box contains P' of what lies below it, then S of the node
+ * contains the key of every hit below it, and a node may be skipped if its S is empty or begins
+ * after q->limit, the key that a hit must not exceed to matter; equal keys are never skipped.
+ *
+ * Space partitions list a primitive in every cell whose closed range meets P'. On each axis the
+ * grown intervals of neighbouring cells overlap, so some cell of the primitive's range contains
+ * the key on that axis, and the product of those cells lists the primitive: a walk must visit
+ * every cell whose S is not empty and does not begin after q->limit.
+ *
+ * A point query is the ray of zero direction: its S is not empty exactly for the boxes that hold
+ * the point, and its hits are ordered by id alone.
+ */
+#ifndef ACCEL_QUERY_H
+#define ACCEL_QUERY_H
+
+#include "box.h"
+#include "primitives.h"
+
+#define QUERY_GROWTH 0x1p-50
+
+/* How many hits an all or point query gathers in one walk. */
+enum { QUERY_BATCH = 32 };
+
+/* A small direct-mapped memory of tested ids: saves tests, never needed for the answer. */
+enum { QUERY_MAILBOXES = 32 };
+
+/* A hit that was found, in the order (key, id). */
+struct found {
+    double key;     /* t clamped into S(P'), or t itself for raw objects */
+    double t, u, v; /* as accel_hit */
+    uint32_t id;    /* the primitive */
+};
+
+struct query {
+    const struct primitives *prims;
+    double org[3], dir[3]; /* the ray */
+    double inv[3];         /* 1 / dir, 0 where dir is 0 */
+    double tmin, tmax;     /* the caller's, exclusive */
+    uint32_t parallel;     /* bit k: dir[k] is 0 */
+    uint32_t sign;         /* bit k: dir[k] is negative (and not 0) */
+    uint8_t near[3];       /* index of the near plane of axis k in a box's six doubles */
+    uint8_t axis[3];       /* the shear test's kx, ky, kz: kz is the largest of |dir| */
+    bool point;            /* a point query */
+    bool batch;            /* an all query's second or later walk: only hits after `last` */
+    double shear[3];       /* dir[kx] / dir[kz], dir[ky] / dir[kz], 1 / dir[kz] */
+    uint32_t skip;         /* id that is not tested, or ACCEL_NONE */
+    double limit;          /* a hit with a greater key cannot matter */
+    struct found *found;   /* the first hits so far, by (key, id) */
+    uint32_t count, room;  /* of them; there is room for */
+    bool any;              /* the first hit ends the query */
+    struct found last;     /* of the batch before: the order goes on after it */
+    accel_query *caller;   /* the caller's, or NULL */
+    const accel_ray *ray;  /* the caller's ray as the callbacks see it */
+    uint64_t nodes, tests; /* visited and tested so far */
+    uint64_t outside;      /* raw hits before their box */
+    uint32_t mailbox[QUERY_MAILBOXES]; /* ids tested lately */
+};
+
+/* An interval of t. Empty if a > z. */
+struct interval {
+    double a, z;
+};
+
+/* The two ends of S from the raw ends; monotone, and right for either sign. */
+static inline double query_grow_near(double t)
+{
+    const double in = t * (1.0 - QUERY_GROWTH), out = t * (1.0 + QUERY_GROWTH);
+    return in < out ? in : out;
+}
+
+static inline double query_grow_far(double t)
+{
+    const double in = t * (1.0 - QUERY_GROWTH), out = t * (1.0 + QUERY_GROWTH);
+    return in > out ? in : out;
+}
+
+/* S of the part of the ray from raw t `near` to raw t `far`, cut to the caller's interval. */
+static inline struct interval query_interval(const struct query *q, double near, double far)
+{
+    const double a = query_grow_near(near), z = query_grow_far(far);
+    return (struct interval){a > q->tmin ? a : q->tmin, z < q->tmax ? z : q->tmax};
+}
+
+/* S of a box. The comparisons are written so that a NaN (0 * inf, where 1 / dir overflows or the
+ * direction is 0) leaves the interval as it is, which is conservative. */
+static inline struct interval query_box(const struct query *q, const accel_box *box)
+{
+    const double *plane = (const double *)box;
+    double near = -(double)INFINITY, far = (double)INFINITY;
+    for (int k = 0; k < 3; k++) {
+        if (q->parallel >> k & 1) {
+            if (!(box->lo[k] <= q->org[k] && q->org[k] <= box->hi[k]))
+                return (struct interval){(double)INFINITY, -(double)INFINITY};
+            continue;
+        }
+        const double t0 = (plane[q->near[k]] - q->org[k]) * q->inv[k];
+        const double t1 = (plane[3 - q->near[k] + 2 * k] - q->org[k]) * q->inv[k];
+        near = t0 > near ? t0 : near;
+        far = t1 < far ? t1 : far;
+    }
+    return query_interval(q, near, far);
+}
+
+/* May something whose S is `s` still matter? */
+static inline bool query_meets(const struct query *q, struct interval s)
+{
+    return s.a <= s.z && s.a <= q->limit;
+}
+
+/* Is the query answered, whatever else may come? */
+static inline bool query_done(const struct query *q)
+{
+    return q->any && q->count > 0;
+}
+
+/* Tests a leaf's primitives and keeps those hits that are among the first. Leaves out what was
+ * tested lately, and objects whose box begins after the limit. */
+void query_test_list(struct query *q, const uint32_t *ids, size_t count);
+
+/* Tests every one: what linear does. */
+void query_test_all(struct query *q, const uint32_t *ids, size_t count);
+
+#endif

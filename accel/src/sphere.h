@@ -1,0 +1,17 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * The ray/sphere test: the roots of |org + t dir - centre|^2 = radius^2. The discriminant comes
+ * from the distance of the centre to the line, the roots from Hearn and Baker's form, so neither a
+ * far nor a large sphere cancels: Haines, Guenther and Akenine-Moeller, "Precision Improvements for
+ * Ray/Sphere Intersection", Ray Tracing Gems, 2019.
+ */
+#ifndef ACCEL_SPHERE_H
+#define ACCEL_SPHERE_H
+
+#include "query.h"
+
+/* Tests the sphere (centre, radius). Returns the number of roots, 0 or 2, the lower first; a line
+ * that touches has two equal ones. */
+int sphere_hits(const struct query *q, const double *sphere, double t[2]);
+
+#endif

@@ -1,0 +1,208 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * The queries of the public interface: each prepares the ray, lets the kind walk, and hands out
+ * what was found.
+ */
+#include "kind.h"
+#include "query.h"
+
+#include <string.h>
+
+static bool valid(const accel_ray *ray)
+{
+    double sum = 0.0;
+    for (int k = 0; k < 3; k++) {
+        if (!isfinite(ray->org[k]) || !isfinite(ray->dir[k]))
+            return false;
+        sum = fmax(sum, fabs(ray->dir[k]));
+    }
+    return sum > 0.0 && !isnan(ray->tmin) && !isnan(ray->tmax);
+}
+
+/* What the slabs need. */
+static void prepare_slabs(struct query *q)
+{
+    for (int k = 0; k < 3; k++) {
+        const bool parallel = q->dir[k] == 0.0, negative = q->dir[k] < 0.0;
+        q->inv[k] = parallel ? 0.0 : 1.0 / q->dir[k];
+        q->parallel |= (uint32_t)parallel << k;
+        q->sign |= (uint32_t)negative << k;
+        q->near[k] = (uint8_t)(negative ? k + 3 : k);
+    }
+}
+
+/* What the shear test needs. */
+static void prepare_shear(struct query *q)
+{
+    int kz = fabs(q->dir[1]) > fabs(q->dir[0]) ? 1 : 0;
+    kz = fabs(q->dir[2]) > fabs(q->dir[kz]) ? 2 : kz;
+    const int kx = (kz + 1) % 3, ky = (kz + 2) % 3;
+    q->axis[0] = (uint8_t)kx;
+    q->axis[1] = (uint8_t)ky;
+    q->axis[2] = (uint8_t)kz;
+    q->shear[0] = q->dir[kx] / q->dir[kz];
+    q->shear[1] = q->dir[ky] / q->dir[kz];
+    q->shear[2] = 1.0 / q->dir[kz];
+}
+
+static uint32_t id_of(const struct primitives *p, accel_id name)
+{
+    if (name.geom >= p->geometry_count || name.prim >= p->geometry[name.geom].count)
+        return ACCEL_NONE;
+    return p->geometry[name.geom].first + name.prim;
+}
+
+static void prepare(struct query *q, const accel *a, const accel_ray *ray, struct found *found,
+                    uint32_t room, accel_query *caller)
+{
+    memset(q, 0, sizeof *q);
+    q->prims = &a->prims;
+    memcpy(q->org, ray->org, sizeof q->org);
+    memcpy(q->dir, ray->dir, sizeof q->dir);
+    q->tmin = ray->tmin;
+    q->tmax = ray->tmax;
+    q->skip = id_of(&a->prims, ray->skip);
+    q->found = found;
+    q->room = room;
+    q->caller = caller;
+    q->ray = ray;
+    prepare_slabs(q);
+}
+
+/* One walk: the first hits after q->last. Things without bounds come first: they may set the
+ * limit. */
+static void walk(struct query *q, const accel *a)
+{
+    q->count = 0;
+    q->limit = (double)INFINITY;
+    memset(q->mailbox, 0xff, sizeof q->mailbox);
+    query_test_all(q, a->prims.unbounded.at, a->prims.unbounded.count);
+    if (a->prims.bounded.count > 0 && !query_done(q))
+        a->kind->walk(a, q);
+}
+
+static void account(const struct query *q)
+{
+    if (!q->caller)
+        return;
+    q->caller->nodes += q->nodes;
+    q->caller->tests += q->tests;
+    q->caller->outside += q->outside;
+}
+
+static bool refuse(accel_query *caller)
+{
+    if (caller)
+        caller->refused++;
+    return false;
+}
+
+static accel_hit hit_from(const struct primitives *p, const struct found *f)
+{
+    const accel_id name = primitives_name(p, f->id);
+    return (accel_hit){f->t, f->u, f->v, name.geom, name.prim};
+}
+
+bool accel_closest(const accel *a, const accel_ray *ray, accel_hit *hit, accel_query *query)
+{
+    if (!valid(ray))
+        return refuse(query);
+    struct query q;
+    struct found found;
+    prepare(&q, a, ray, &found, 1, query);
+    prepare_shear(&q);
+    walk(&q, a);
+    account(&q);
+    if (q.count == 0)
+        return false;
+    *hit = hit_from(&a->prims, &found);
+    return true;
+}
+
+bool accel_any(const accel *a, const accel_ray *ray, accel_query *query)
+{
+    if (!valid(ray))
+        return refuse(query);
+    struct query q;
+    struct found found;
+    prepare(&q, a, ray, &found, 1, query);
+    prepare_shear(&q);
+    q.any = true;
+    walk(&q, a);
+    account(&q);
+    return q.count > 0;
+}
+
+/* Batch after batch until one is not full. False if the visitor said stop. */
+static bool visit_all(struct query *q, const accel *a,
+                      bool (*visit)(void *visitor, const struct primitives *, const struct found *),
+                      void *visitor)
+{
+    bool more = true, go_on = true;
+    while (more && go_on) {
+        walk(q, a);
+        more = q->count == q->room;
+        for (uint32_t i = 0; i < q->count && go_on; i++)
+            go_on = visit(visitor, q->prims, &q->found[i]);
+        if (q->count > 0)
+            q->last = q->found[q->count - 1];
+        q->batch = true;
+    }
+    account(q);
+    return go_on;
+}
+
+struct hit_visitor {
+    accel_visit_hit *visit;
+    void *user;
+};
+
+static bool visit_hit(void *visitor, const struct primitives *p, const struct found *f)
+{
+    const struct hit_visitor *v = visitor;
+    const accel_hit hit = hit_from(p, f);
+    return v->visit(v->user, &hit);
+}
+
+bool accel_all(const accel *a, const accel_ray *ray, accel_visit_hit *visit, void *user,
+               accel_query *query)
+{
+    if (!valid(ray)) {
+        refuse(query);
+        return true;
+    }
+    struct query q;
+    struct found found[QUERY_BATCH];
+    prepare(&q, a, ray, found, QUERY_BATCH, query);
+    prepare_shear(&q);
+    return visit_all(&q, a, visit_hit, &(struct hit_visitor){visit, user});
+}
+
+struct id_visitor {
+    accel_visit_id *visit;
+    void *user;
+};
+
+static bool visit_id(void *visitor, const struct primitives *p, const struct found *f)
+{
+    const struct id_visitor *v = visitor;
+    return v->visit(v->user, primitives_name(p, f->id));
+}
+
+bool accel_point(const accel *a, const double point[3], accel_visit_id *visit, void *user,
+                 accel_query *query)
+{
+    const double nowhere[3] = {0.0, 0.0, 0.0};
+    const accel_ray ray = accel_ray_from(point, nowhere);
+    for (int k = 0; k < 3; k++) {
+        if (!isfinite(point[k])) {
+            refuse(query);
+            return true;
+        }
+    }
+    struct query q;
+    struct found found[QUERY_BATCH];
+    prepare(&q, a, &ray, found, QUERY_BATCH, query);
+    q.point = true;
+    return visit_all(&q, a, visit_id, &(struct id_visitor){visit, user});
+}

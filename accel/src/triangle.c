@@ -1,0 +1,77 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "triangle.h"
+
+/* Holds the product of two doubles exactly, with room in the exponent for a product of three. */
+#if defined(__SIZEOF_FLOAT128__)
+typedef __float128 wide;
+#elif LDBL_MANT_DIG >= 106
+typedef long double wide;
+#else
+#error "accel needs a floating-point type of 106 bits or more: __float128 or long double"
+#endif
+
+/* Inside this range neither the edge functions' sum nor t's numerator has lost bits at the ends of
+ * double's range: with |t| below 2^400 no product over- or underflows. */
+#define SAFE_MIN 0x1p-600
+#define SAFE_MAX 0x1p600
+
+/* The vertices in the ray's frame. */
+struct sheared {
+    double x[3], y[3], z[3];
+};
+
+static struct sheared shear(const struct query *q, const double *vertices)
+{
+    const int kx = q->axis[0], ky = q->axis[1], kz = q->axis[2];
+    struct sheared s;
+    for (int i = 0; i < 3; i++) {
+        const double *p = vertices + 3 * i;
+        const double z = p[kz] - q->org[kz];
+        s.x[i] = p[kx] - q->org[kx] - q->shear[0] * z;
+        s.y[i] = p[ky] - q->org[ky] - q->shear[1] * z;
+        s.z[i] = q->shear[2] * z;
+    }
+    return s;
+}
+
+/* The same with exact products. */
+static bool hit_wide(const struct sheared *s, double *t, double *u, double *v)
+{
+    wide e[3];
+    for (int i = 0; i < 3; i++) {
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+        e[i] = (wide)s->x[k] * s->y[j] - (wide)s->y[k] * s->x[j];
+    }
+    if ((e[0] < 0 || e[1] < 0 || e[2] < 0) && (e[0] > 0 || e[1] > 0 || e[2] > 0))
+        return false;
+    const wide det = e[0] + e[1] + e[2];
+    if (!(det < 0 || det > 0))
+        return false;
+    *t = (double)((e[0] * s->z[0] + e[1] * s->z[1] + e[2] * s->z[2]) / det);
+    *u = (double)(e[1] / det);
+    *v = (double)(e[2] / det);
+    return true;
+}
+
+static bool safe(double x)
+{
+    return fabs(x) > SAFE_MIN && fabs(x) < SAFE_MAX;
+}
+
+bool triangle_hit(const struct query *q, const double *vertices, double *t, double *u, double *v)
+{
+    const struct sheared s = shear(q, vertices);
+    const double e0 = s.x[2] * s.y[1] - s.y[2] * s.x[1];
+    const double e1 = s.x[0] * s.y[2] - s.y[0] * s.x[2];
+    const double e2 = s.x[1] * s.y[0] - s.y[1] * s.x[0];
+    if ((e0 < 0 || e1 < 0 || e2 < 0) && (e0 > 0 || e1 > 0 || e2 > 0))
+        return false;
+    const double det = e0 + e1 + e2;
+    const double scaled = e0 * s.z[0] + e1 * s.z[1] + e2 * s.z[2];
+    if (e0 == 0 || e1 == 0 || e2 == 0 || !safe(det) || !safe(scaled))
+        return hit_wide(&s, t, u, v);
+    *t = scaled / det;
+    *u = e1 / det;
+    *v = e2 / det;
+    return true;
+}
