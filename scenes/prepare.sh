@@ -1,0 +1,133 @@
+# SPDX-License-Identifier: Apache-2.0
+# shellcheck shell=bash
+# Sourced by scenes/demo.sh, scenes/fetch.sh and tests/run.sh: installs what is missing, builds.
+#
+#     . scenes/prepare.sh
+#     prepare demo        what the demo needs: the library, the command, both POV-Rays
+#     prepare tests       the same and what the tests need
+#
+# All that is made goes to build/ (logs: build/logs/). Only packages that dpkg does not know as
+# installed are asked for, so a second run takes seconds and no network. Made for a bare Debian 12:
+# bash, coreutils, dpkg and apt are all that it takes for granted; no terminal, no input.
+
+set -euo pipefail
+
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+build=$root/build
+logs=$build/logs
+
+# The packages, in one place. ca-certificates: for mirrors that are reached by https.
+packages_build=(ca-certificates gcc g++ make cmake pkg-config libassimp-dev libopenexr-dev
+    libpng-dev librandom123-dev)
+packages_povray_build=(autoconf automake autoconf-archive debhelper dpkg-dev patch libpng-dev
+    zlib1g-dev libjpeg-dev libtiff-dev libopenexr-dev libboost-thread-dev libboost-date-time-dev)
+packages_stock=(povray povray-includes)
+packages_tests=(povray-examples libcmocka-dev libembree-dev gnuplot-nox clang)
+
+say() { printf '%s\n' "$*"; }
+
+# Ends the script with one clear line.
+die() {
+    printf 'accel: %s\n' "$*" >&2
+    exit 1
+}
+
+# Shows the last line of a log while it grows: on a terminal in place, else every 20 seconds.
+follow_log() {
+    local title=$1 log=$2 start=$SECONDS last='' line width=${COLUMNS:-100} shown=$SECONDS
+    [ -t 1 ] && width=$(tput cols 2>/dev/null || say 80)
+    while kill -0 $$ 2>/dev/null; do
+        sleep 0.3
+        line=$(tail -c 400 "$log" 2>/dev/null | tr '\r' '\n' | tr -cd '[:print:]\n' |
+            awk 'NF { line = $0 } END { print line }') || true
+        line="  $title, $((SECONDS - start)) s: $line"
+        if [ -t 1 ]; then
+            printf '\r\033[K%s' "${line:0:width-1}"
+        elif [ "$line" != "$last" ] && [ $((SECONDS - shown)) -ge 20 ]; then
+            printf '%s\n' "${line:0:width-1}"
+            shown=$SECONDS
+        fi
+        last=$line
+    done
+}
+
+# step TITLE COMMAND...: runs a command with its output in a log and its progress shown.
+# The command is in the foreground, so that Ctrl-C reaches it.
+step() {
+    local title=$1 log start=$SECONDS follower status=0
+    shift
+    mkdir -p "$logs"
+    log=$logs/$(printf '%s' "$title" | tr -cs 'a-zA-Z0-9' '-').log
+    : >"$log"
+    follow_log "$title" "$log" &
+    follower=$!
+    "$@" >"$log" 2>&1 </dev/null || status=$?
+    kill "$follower" 2>/dev/null || true
+    wait "$follower" 2>/dev/null || true
+    [ -t 1 ] && printf '\r\033[K'
+    if [ "$status" -ne 0 ]; then
+        tail -n 25 "$log" >&2
+        die "$title failed (exit code $status); all of its output: ${log#"$root"/}"
+    fi
+    say "  $title: done in $((SECONDS - start)) s"
+}
+
+# Prints those of the packages that are not installed.
+missing_packages() {
+    local name
+    for name in $(printf '%s\n' "$@" | sort -u); do
+        dpkg-query -W -f '${db:Status-Abbrev}' "$name" 2>/dev/null | grep -q '^ii' || say "$name"
+    done
+}
+
+as_root() {
+    if [ "$(id -u)" -eq 0 ]; then
+        "$@"
+    else
+        sudo "$@"
+    fi
+}
+
+apt_install() {
+    as_root env DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=300 -q -y \
+        --no-install-recommends install "$@"
+}
+
+# Installs those of the packages that are missing; without any, does not touch apt.
+install_missing() {
+    local missing
+    mapfile -t missing < <(missing_packages "$@")
+    [ "${#missing[@]}" -gt 0 ] || return 0
+    command -v apt-get >/dev/null ||
+        die "no apt-get here, but these Debian packages are missing: ${missing[*]}"
+    if [ "$(id -u)" -ne 0 ]; then
+        command -v sudo >/dev/null ||
+            die "neither root nor sudo; as root: apt-get install --no-install-recommends ${missing[*]}"
+        sudo -n true 2>/dev/null || sudo -v || die "sudo refused; missing packages: ${missing[*]}"
+    fi
+    say "Installing ${missing[*]}"
+    step "package lists" as_root apt-get -o DPkg::Lock::Timeout=300 -q update
+    step "packages" apt_install "${missing[@]}"
+}
+
+configure() {
+    cmake -S "$root" -B "$build" -DCMAKE_BUILD_TYPE=Release "$@"
+}
+
+# The library and the command. The demo leaves the tests out unless they were configured before.
+build_accel() {
+    if [ "$1" = tests ]; then
+        step "configure" configure -DACCEL_TESTS=ON -DACCEL_WERROR=ON
+    elif [ ! -e "$build/CMakeCache.txt" ]; then
+        step "configure" configure -DACCEL_TESTS=OFF
+    fi
+    step "library and command" cmake --build "$build" -j "$(nproc)"
+}
+
+prepare() {
+    local packages=("${packages_build[@]}" "${packages_povray_build[@]}" "${packages_stock[@]}")
+    [ "$1" != tests ] || packages+=("${packages_tests[@]}")
+    install_missing "${packages[@]}"
+    build_accel "$1"
+    step "patched POV-Ray (about ten minutes the first time)" "$root/povray-adapter/build.sh"
+}
