@@ -88,20 +88,20 @@ box { <-22, 12.5, 18>, <22, 14, 20> texture { Plaster } }
     #end
 #end
 
-#declare Scan = #include "diplodocus.inc"
-Exhibit(Scan, 18, 10.5, <1.2, 0, 11>, 0.5, <0.52, 0.44, 0.33>, 0.25, 0)
-#declare Scan = #include "elephant.inc"
-Exhibit(Scan, 25, 4.6, <-6.7, 0, 6.5>, 0.6, <0.40, 0.41, 0.43>, 0.35, 0)
-#declare Scan = #include "camel.inc"
-Exhibit(Scan, 120, 3.0, <8.2, 0, 4.2>, 0.4, <0.62, 0.46, 0.26>, 0.2, 0)
-#declare Scan = #include "chinese_dragon.inc"
-Exhibit(Scan, 205, 1.5, <1.15, 0, -0.9>, 0.9, <0.16, 0.44, 0.32>, 0.9, 0.06)
-#declare Scan = #include "armadillo.inc"
-Exhibit(Scan, 12, 1.0, <-2.9, 0, -5.2>, 1.0, <0.46, 0.29, 0.15>, 0.8, 0.05)
-#declare Scan = #include "lion.inc"
-Exhibit(Scan, 200, 0.9, <2.9, 0, -4.6>, 1.05, <0.78, 0.75, 0.68>, 0.3, 0)
-#declare Turbine = #include "turbine.inc"
-#declare Scan = object { Turbine rotate -90 * z }
-Exhibit(Scan, 0, 0.75, <-5.2, 0, -3.4>, 1.1, <0.55, 0.56, 0.60>, 1.0, 0.2)
-#declare Scan = #include "bunny.inc"
-Exhibit(Scan, -30, 0.16, <-2.12, 0, -11.75>, 1.53, <0.80, 0.74, 0.66>, 0.2, 0)
+#include "diplodocus.inc"
+Exhibit(Geometry[0], 18, 10.5, <1.2, 0, 11>, 0.5, <0.52, 0.44, 0.33>, 0.25, 0)
+#include "elephant.inc"
+Exhibit(Geometry[0], 25, 4.6, <-6.7, 0, 6.5>, 0.6, <0.40, 0.41, 0.43>, 0.35, 0)
+#include "camel.inc"
+Exhibit(Geometry[0], 120, 3.0, <8.2, 0, 4.2>, 0.4, <0.62, 0.46, 0.26>, 0.2, 0)
+#include "chinese_dragon.inc"
+Exhibit(Geometry[0], 205, 1.5, <1.15, 0, -0.9>, 0.9, <0.16, 0.44, 0.32>, 0.9, 0.06)
+#include "armadillo.inc"
+Exhibit(Geometry[0], 12, 1.0, <-2.9, 0, -5.2>, 1.0, <0.46, 0.29, 0.15>, 0.8, 0.05)
+#include "lion.inc"
+Exhibit(Geometry[0], 200, 0.9, <2.9, 0, -4.6>, 1.05, <0.78, 0.75, 0.68>, 0.3, 0)
+#include "turbine.inc"
+#declare Upright = object { Geometry[0] rotate -90 * z }
+Exhibit(Upright, 0, 0.75, <-5.2, 0, -3.4>, 1.1, <0.55, 0.56, 0.60>, 1.0, 0.2)
+#include "bunny.inc"
+Exhibit(Geometry[0], -30, 0.16, <-2.12, 0, -11.75>, 1.53, <0.80, 0.74, 0.66>, 0.2, 0)

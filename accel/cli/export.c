@@ -1,0 +1,136 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * accel export: a scene as a file for POV-Ray to include. See sdl.c for what is written.
+ */
+#include "commands.h"
+#include "sdl.h"
+#include "structure.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { FLAG_OUTPUT, FLAG_AS };
+
+static const accel_flag flags[] = {
+    {"output", 'o', "FILE.inc", "file to write"},
+    {"as", 0, "FORM",
+     "mesh2 (default): an array Geometry of mesh2 objects, vertices rounded to float;\n"
+     "triangles: a call Triangle(GEOMETRY, PRIM, A, B, C) for each, exact in double"},
+};
+
+/* What is to be done. */
+typedef struct job {
+    const char *scene;
+    const char *output;
+    accel_sdl_form form;
+} job;
+
+static bool write_file(const accel_command *command, const char *part, const accel_scene *scene,
+                       accel_sdl_form form)
+{
+    FILE *file = fopen(part, "w");
+    if (file == NULL) {
+        accel_complain(command, "cannot write %s: %s", part, strerror(errno));
+        return false;
+    }
+    const bool enough = accel_sdl_write(file, scene, form);
+    const bool failed = ferror(file) != 0;
+    const bool closed = fclose(file) == 0;
+    if (!enough) {
+        accel_complain(command, "out of memory; nothing was written");
+    } else if (failed || !closed) {
+        accel_complain(command, "cannot write %s: %s", part, strerror(errno));
+    }
+    return enough && !failed && closed;
+}
+
+/* The file appears under its name when it is complete, or not at all. */
+static int export_scene(const accel_command *command, const job *job, const accel_scene *scene)
+{
+    accel_error error;
+    if (!accel_sdl_fits(scene, job->form, &error)) {
+        return accel_complain(command, "%s: %s; nothing was written", job->scene, error.text);
+    }
+    const size_t length = strlen(job->output);
+    char *part = malloc(length + sizeof ".part");
+    if (part == NULL) {
+        return accel_complain(command, "out of memory; nothing was written");
+    }
+    memcpy(part, job->output, length);
+    memcpy(part + length, ".part", sizeof ".part");
+    int code = ACCEL_EXIT_FINE;
+    if (!write_file(command, part, scene, job->form)) {
+        code = ACCEL_EXIT_BAD;
+        remove(part);
+    } else if (rename(part, job->output) != 0) {
+        code = accel_complain(command, "cannot write %s: %s", job->output, strerror(errno));
+        remove(part);
+    }
+    free(part);
+    return code;
+}
+
+static int load_and_export(const accel_command *command, const job *job, bool quiet)
+{
+    accel_progress progress = accel_progress_start(quiet);
+    accel_loaded loaded;
+    if (!accel_open_scene(&loaded, job->scene, command, &progress)) {
+        return ACCEL_EXIT_BAD;
+    }
+    const int code = export_scene(command, job, &loaded.scene);
+    accel_unload_scene(&loaded);
+    return code;
+}
+
+static bool read_form(const accel_command *command, const char *word, accel_sdl_form *form)
+{
+    const bool mesh2 = strcmp(word, "mesh2") == 0;
+    if (!mesh2 && strcmp(word, "triangles") != 0) {
+        accel_complain(command, "unknown form '%.60s'; mesh2 and triangles are allowed", word);
+        return false;
+    }
+    *form = mesh2 ? ACCEL_SDL_MESH2 : ACCEL_SDL_TRIANGLES;
+    return true;
+}
+
+static int run(const accel_command *command, int argc, char **argv)
+{
+    accel_arguments arguments = accel_arguments_start(command, argc, argv);
+    job job = {.form = ACCEL_SDL_MESH2};
+    for (;;) {
+        switch (accel_next_argument(&arguments)) {
+        case ACCEL_ARGUMENT_STOP:
+            return arguments.exit_code;
+        case FLAG_OUTPUT:
+            job.output = arguments.value;
+            break;
+        case FLAG_AS:
+            if (!read_form(command, arguments.value, &job.form)) {
+                return ACCEL_EXIT_BAD;
+            }
+            break;
+        case ACCEL_ARGUMENT_WORD:
+            if (!accel_one_word(&arguments, "SCENE", &job.scene)) {
+                return ACCEL_EXIT_BAD;
+            }
+            break;
+        default:
+            if (job.scene == NULL || job.output == NULL) {
+                return accel_complain(command, "SCENE and -o FILE.inc are needed; usage: accel %s %s",
+                                      command->name, command->arguments);
+            }
+            return load_and_export(command, &job, arguments.quiet);
+        }
+    }
+}
+
+const accel_command accel_command_export = {
+    .name = "export",
+    .arguments = "SCENE -o FILE.inc [--as FORM]",
+    .summary = "write a scene as a file for POV-Ray to include",
+    .flags = flags,
+    .flag_count = sizeof flags / sizeof flags[0],
+    .run = run,
+};

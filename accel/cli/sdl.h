@@ -1,0 +1,25 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * Scenes of triangles as text in POV-Ray's scene description language: see sdl.c.
+ */
+#ifndef ACCEL_CLI_SDL_H
+#define ACCEL_CLI_SDL_H
+
+#include "scene.h"
+
+#include <stdio.h>
+
+/* The forms in which a scene can be written. */
+typedef enum accel_sdl_form {
+    ACCEL_SDL_MESH2 = 0, /* an array Geometry of mesh2 objects */
+    ACCEL_SDL_TRIANGLES  /* a call Triangle(GEOMETRY, PRIM, A, B, C) for each triangle */
+} accel_sdl_form;
+
+/* Says whether `scene` can be written in `form`; otherwise fills error->text with one line. */
+bool accel_sdl_fits(const accel_scene *scene, accel_sdl_form form, accel_error *error);
+
+/* Writes `scene`, which must fit. Returns false where memory runs out; errors of the file stay in
+ * the file, for ferror. */
+bool accel_sdl_write(FILE *file, const accel_scene *scene, accel_sdl_form form);
+
+#endif
