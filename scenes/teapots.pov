@@ -23,8 +23,8 @@ camera {
     direction z
     right image_width / image_height * x
     up y
-    look_at <-0.5, 0.7, -0.6>
-    angle 48
+    look_at <-0.9, 0.4, -0.6>
+    angle 57
 }
 
 light_source { <-14, 19, -12> rgb <1.05, 0.96, 0.82> }
