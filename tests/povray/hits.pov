@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where stock POV-Ray's trace() finds the rays of a file to hit a scene of triangles.
+//
+// Every triangle becomes a smooth_triangle with one and the same normal at its three corners:
+// POV-Ray intersects it as a plain triangle, in double, and the normal that trace() returns names
+// the triangle. The normal is 1 along the axis that the triangle faces most and NUMBER / (4 Total)
+// along the next one: POV-Ray drops a smooth_triangle whose normals stand across it.
+// One union holds them all; POV-Ray tests each of its parts for every ray.
+//
+// Declare=Total=N   triangles in the scene
+// Declare=Scene=S   0: cubes.inc with Declare=Gap=X; 1: triangles.inc, as accel export --as triangles
+// Reads rays.txt (origin and direction, six numbers and commas), writes hits.txt: the point and
+// the number in 20 digits for a hit, "miss" for a miss.
+#version 3.7;
+global_settings { assumed_gamma 1 }
+
+#declare Number = 0;
+
+#macro Coded(A, B, C)
+    #local Facing = vcross(B - A, C - A);
+    #local Part = Number / (4 * Total);
+    #local Code = <1, Part, 0>;
+    #if (abs(Facing.y) > max(abs(Facing.x), abs(Facing.z))) #local Code = <0, 1, Part>; #end
+    #if (abs(Facing.z) > max(abs(Facing.x), abs(Facing.y))) #local Code = <Part, 0, 1>; #end
+    smooth_triangle { A, Code, B, Code, C, Code }
+    #declare Number = Number + 1;
+#end
+
+#macro Decoded(N)
+    #local Part = N.y / N.x;
+    #if (N.y > max(N.x, N.z)) #local Part = N.z / N.y; #end
+    #if (N.z > max(N.x, N.y)) #local Part = N.x / N.z; #end
+    (Part * 4 * Total)
+#end
+
+#macro Triangle(Geometry, Prim, A, B, C)
+    Coded(A, B, C)
+#end
+
+#if (Scene = 0)
+    #include "cubes.inc"
+    #macro Cube(C, At)
+        #local T = 0;
+        #while (T < 12)
+            Coded(At + Corner(Cube_Faces[T].x), At + Corner(Cube_Faces[T].y),
+                  At + Corner(Cube_Faces[T].z))
+            #local T = T + 1;
+        #end
+    #end
+    #declare All = union { Cubes(Gap, 1) }
+#else
+    #declare All = union { #include "triangles.inc" }
+#end
+
+#if (Number != Total)
+    #error concat("the scene has ", str(Number, 0, 0), " triangles instead of ", str(Total, 0, 0))
+#end
+
+#fopen Rays "rays.txt" read
+#fopen Hits "hits.txt" write
+#while (defined(Rays))
+    #read (Rays, Ox, Oy, Oz, Dx, Dy, Dz)
+    #declare Normal = <0, 0, 0>;
+    #declare Point = trace(All, <Ox, Oy, Oz>, <Dx, Dy, Dz>, Normal);
+    #if (vlength(Normal) = 0)
+        #write (Hits, "miss\n")
+    #else
+        #write (Hits, vstr(3, Point, " ", 0, 20), " ", str(Decoded(Normal), 0, 20), "\n")
+    #end
+#end
+#fclose Hits
+#fclose Rays
