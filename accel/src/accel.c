@@ -10,12 +10,13 @@
 #include <stdio.h>
 #include <string.h>
 
-extern const struct accel_kind linear_kind, octree_kind;
+extern const struct accel_kind bvh_kind, linear_kind, octree_kind;
 
 /* A new kind: its file, and one line here. */
 const accel_kind_info *const kinds[] = {
     &linear_kind.info,
     &octree_kind.info,
+    &bvh_kind.info,
     NULL,
 };
 

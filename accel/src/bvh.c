@@ -1,0 +1,68 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * The kind bvh: see bvh.h.
+ */
+#include "bvh.h"
+
+enum { LEAF };
+
+static const accel_option options[] = {
+    [LEAF] = {.key = "leaf",
+              .meaning = "primitives that a leaf may hold without being split",
+              .min = 1,
+              .max = 1e9,
+              .standard = NAN,
+              .whole = true},
+};
+
+static bool build(struct build *build)
+{
+    struct bvh *b = (struct bvh *)build->a;
+    if (!bvh_build(build, b, b->base.option[LEAF]))
+        return false;
+    array_trim(&b->base.memory, &b->nodes);
+    b->base.info.nodes = b->nodes.count;
+    b->base.info.leaves = b->nodes.count + 1;
+    b->base.info.references = b->refs.count;
+    return true;
+}
+
+static void visit(const accel *a, struct query *q, struct boxtree_child leaf)
+{
+    query_test_list(q, ((const struct bvh *)a)->refs.at + leaf.first, leaf.count);
+}
+
+static void walk(const accel *a, struct query *q)
+{
+    const struct bvh *b = (const struct bvh *)a;
+    if (!query_meets(q, query_box(q, &b->box)))
+        return;
+    if (b->root.count > 0)
+        visit(a, q, b->root);
+    else
+        boxtree_walk(a, b->nodes.at, q, visit);
+}
+
+static bool validate(const accel *a, accel_error *error)
+{
+    return bvh_validate((const struct bvh *)a, error);
+}
+
+static void release(accel *a)
+{
+    struct bvh *b = (struct bvh *)a;
+    array_free(&a->memory, &b->nodes);
+    array_free(&a->memory, &b->refs);
+}
+
+const struct accel_kind bvh_kind = {
+    .info = {.name = "bvh",
+             .summary = "binary hierarchy of boxes by the surface-area heuristic",
+             .options = options,
+             .option_count = sizeof options / sizeof *options},
+    .size = sizeof(struct bvh),
+    .build = build,
+    .walk = walk,
+    .validate = validate,
+    .release = release,
+};
