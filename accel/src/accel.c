@@ -10,14 +10,11 @@
 #include <stdio.h>
 #include <string.h>
 
-extern const struct accel_kind bvh_kind, linear_kind, octree_kind;
+extern const struct accel_kind bvh_kind, linear_kind, octree_kind, auto_kind;
 
 /* A new kind: its file, and one line here. */
 const accel_kind_info *const kinds[] = {
-    &linear_kind.info,
-    &octree_kind.info,
-    &bvh_kind.info,
-    NULL,
+    &linear_kind.info, &octree_kind.info, &auto_kind.info, &bvh_kind.info, NULL,
 };
 
 const accel_kind_info *const *accel_kinds(size_t *count)
@@ -86,16 +83,39 @@ void build_note(struct build *build, const char *format, ...)
     info->note_count++;
 }
 
+/* Lets a kind that stands for others pick one, and turns the structure into that, with default
+ * options. */
+static bool choose(struct build *build)
+{
+    const struct accel_kind *from = build->a->kind, *to = (const struct accel_kind *)kinds[0];
+    build_phase(build, "choose");
+    if (build->a->prims.bounded.count > 0 && !from->choose(build, &to))
+        return false;
+    struct memory m = build->a->memory;
+    accel *a = memory_resize(&m, build->a, from->size, to->size);
+    if (!a) {
+        build->a->memory.refused = m.refused;
+        return build_no_memory(build);
+    }
+    memset((char *)a + from->size, 0, to->size - from->size);
+    a->memory = m;
+    a->kind = to;
+    build->a = a;
+    return config_parse(to->info.name, a->option, build->error) != NULL;
+}
+
 /* Copies the scene and builds the kind over it. */
 static bool run(struct build *build, const accel_scene *scene)
 {
-    struct accel *a = build->a;
     struct timespec start;
     clock_gettime(CLOCK_MONOTONIC, &start);
     build->last_tick = start;
     build_phase(build, "copy");
     if (!primitives_copy(build, scene))
         return false;
+    if (build->a->kind->choose && !choose(build))
+        return false;
+    struct accel *a = build->a;
     if (a->prims.bounded.count > 0) {
         build_phase(build, "build");
         if (!a->kind->build(build))
@@ -147,10 +167,10 @@ accel_status accel_build(accel **out, const accel_scene *scene, const char *conf
     memcpy(a->option, option, sizeof option);
     struct build build = {.a = a, .hooks = hooks, .error = error};
     if (!run(&build, scene)) {
-        accel_free(a);
+        accel_free(build.a);
         return error->status;
     }
-    *out = a;
+    *out = build.a;
     return ACCEL_OK;
 }
 
@@ -158,7 +178,8 @@ void accel_free(accel *a)
 {
     if (!a)
         return;
-    a->kind->release(a);
+    if (a->kind->release)
+        a->kind->release(a);
     primitives_free(&a->memory, &a->prims);
     struct memory m = a->memory;
     memory_resize(&m, a, a->kind->size, 0);

@@ -60,6 +60,7 @@ const struct accel_kind bvh_kind = {
              .summary = "binary hierarchy of boxes by the surface-area heuristic",
              .options = options,
              .option_count = sizeof options / sizeof *options},
+    .cost = {.build = 30, .ray = 60, .node = 15, .test = 14, .growth = GROWS_LIKE_LOG},
     .size = sizeof(struct bvh),
     .build = build,
     .walk = walk,

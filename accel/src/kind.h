@@ -36,9 +36,25 @@ struct build {
     struct timespec last_tick;   /* when the progress hook was last called */
 };
 
+/* How a kind's nodes per ray grow with the primitives. */
+enum kind_growth { GROWS_LIKE_LOG, GROWS_LIKE_CUBE_ROOT, GROWS_LIKE_N };
+
+/* What a kind costs, for `auto`: nanoseconds, measured with `accel bench`; only their ratios
+ * matter. */
+struct kind_cost {
+    double build; /* per primitive and level, n * log2 n in all */
+    double ray;   /* per ray, before the first node */
+    double node;  /* per node or cell visited */
+    double test;  /* per test, in units of primitives.test_cost */
+    enum kind_growth growth;
+};
+
 struct accel_kind {
     accel_kind_info info; /* name, summary, options; the first member: see kinds */
-    size_t size;          /* of the kind's struct */
+    struct kind_cost cost;
+    size_t size; /* of the kind's struct */
+    /* Only of a kind that stands for others: picks one of them, over a->prims.bounded. */
+    bool (*choose)(struct build *build, const struct accel_kind **kind);
     /* Builds over a->prims.bounded, which is not empty; reads a->option and writes back what auto
      * became; fills the counts in a->info. False: build->error says why, `release` cleans up. */
     bool (*build)(struct build *build);

@@ -9,7 +9,6 @@
  */
 #include "octree.h"
 
-
 /* One level of the walk. Raw values of t, near and far as the ray goes. A half of an axis that the
  * ray is parallel to and outside of has near = inf, far = -inf. */
 struct level {
