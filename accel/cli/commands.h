@@ -1,0 +1,13 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * The subcommands, one file each. main.c lists them.
+ */
+#ifndef ACCEL_CLI_COMMANDS_H
+#define ACCEL_CLI_COMMANDS_H
+
+#include "options.h"
+
+extern const accel_command accel_command_kinds, accel_command_info, accel_command_check,
+    accel_command_trace, accel_command_diff;
+
+#endif

@@ -1,0 +1,155 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * accel info: what was built, how large it is, how long it took, what was left out.
+ */
+#include "commands.h"
+#include "structure.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+
+enum { FLAG_CONFIG };
+
+static const accel_flag flags[] = {
+    {"accelerator", 'a', "CONFIG",
+     "structure to build, may be repeated (default: " ACCEL_DEFAULT_CONFIG ")"},
+};
+
+static void print_skipped(const accel_info *info)
+{
+    printf("  skipped       %" PRIu64 " invalid primitives", info->skipped);
+    const uint64_t shown = info->skipped < ACCEL_INFO_IDS ? info->skipped : ACCEL_INFO_IDS;
+    for (uint64_t i = 0; i < shown; i++) {
+        printf("%s%" PRIu32 "/%" PRIu32, i == 0 ? ", first (geometry/primitive) " : " ",
+               info->skipped_ids[i].geom, info->skipped_ids[i].prim);
+    }
+    printf("\n");
+    printf("  degenerate    %" PRIu64 " triangles that no ray can hit\n", info->degenerate);
+    printf("  unbounded     %" PRIu64 " objects, tested for every ray\n", info->unbounded);
+}
+
+static void print_structure(const accel_info *info)
+{
+    if (info->size_classes != 0) {
+        printf("  size classes  %" PRIu32 "\n", info->size_classes);
+    }
+    if (info->clusters != 0) {
+        printf("  clusters      %" PRIu32 "\n", info->clusters);
+    }
+    printf("  nodes         %" PRIu64 " inner\n", info->nodes);
+    printf("  leaves        %" PRIu64 " with something in them\n", info->leaves);
+    const uint64_t kept = info->primitives - info->skipped - info->degenerate;
+    printf("  references    %" PRIu64, info->references);
+    if (kept != 0) {
+        printf(", %.2f per primitive", (double)info->references / (double)kept);
+    }
+    printf("\n  depth         %" PRIu32 "\n", info->depth);
+    printf("  memory        %" PRIu64 " bytes", info->bytes);
+    if (kept != 0) {
+        printf(", %.1f per primitive", (double)info->bytes / (double)kept);
+    }
+    printf("; %" PRIu64 " at most during the build\n", info->peak_bytes);
+}
+
+static void print_time(const accel_info *info)
+{
+    printf("  build time    %.6f s", info->seconds);
+    for (uint32_t i = 0; i < info->phase_count; i++) {
+        printf("%s%s %.6f", i == 0 ? ": " : ", ", info->phases[i].name, info->phases[i].seconds);
+    }
+    printf("\n");
+    for (uint32_t i = 0; i < info->note_count; i++) {
+        printf("  note          %s\n", info->notes[i]);
+    }
+}
+
+static void print_info(const accel *a)
+{
+    accel_info info;
+    accel_describe(a, &info);
+    printf("%s\n", info.config);
+    print_skipped(&info);
+    print_structure(&info);
+    print_time(&info);
+}
+
+static void print_scene(const char *name, const accel_loaded *loaded)
+{
+    accel_box box;
+    printf("%s: %" PRIu64 " primitives in %" PRIu32 " geometries", name,
+           accel_scene_primitives(&loaded->scene), loaded->scene.count);
+    if (accel_scene_box(&loaded->scene, &box)) {
+        printf(", box (%.9g %.9g %.9g) to (%.9g %.9g %.9g)", box.lo[0], box.lo[1], box.lo[2],
+               box.hi[0], box.hi[1], box.hi[2]);
+    }
+    if (loaded->left_out != 0) {
+        printf("; %" PRIu64 " points and lines left out", loaded->left_out);
+    }
+    printf("\n");
+}
+
+static int describe(const accel_command *command, const char *scene, const accel_configs *configs,
+                    bool quiet)
+{
+    accel_progress progress = accel_progress_start(quiet);
+    accel_loaded loaded;
+    if (!accel_open_scene(&loaded, scene, command, &progress)) {
+        return ACCEL_EXIT_BAD;
+    }
+    int code = ACCEL_EXIT_FINE;
+    for (size_t i = 0; i < configs->count && code == ACCEL_EXIT_FINE; i++) {
+        accel *a = accel_open_structure(&loaded, configs->items[i], command, &progress);
+        if (a == NULL) {
+            code = ACCEL_EXIT_BAD;
+        } else {
+            if (i == 0) {
+                print_scene(scene, &loaded);
+            }
+            print_info(a);
+        }
+        accel_free(a);
+    }
+    accel_unload_scene(&loaded);
+    return code;
+}
+
+static int run(const accel_command *command, int argc, char **argv)
+{
+    accel_arguments arguments = accel_arguments_start(command, argc, argv);
+    accel_configs configs = {0};
+    const char *scene = NULL;
+    for (;;) {
+        switch (accel_next_argument(&arguments)) {
+        case ACCEL_ARGUMENT_STOP:
+            return arguments.exit_code;
+        case FLAG_CONFIG:
+            if (!accel_configs_add(&configs, arguments.value, command)) {
+                return ACCEL_EXIT_BAD;
+            }
+            break;
+        case ACCEL_ARGUMENT_WORD:
+            if (!accel_one_word(&arguments, "SCENE", &scene)) {
+                return ACCEL_EXIT_BAD;
+            }
+            break;
+        default:
+            if (scene == NULL) {
+                return accel_complain(command, "no SCENE is given; usage: accel %s %s",
+                                      command->name, command->arguments);
+            }
+            if (configs.count == 0) {
+                configs.items[configs.count++] = ACCEL_DEFAULT_CONFIG;
+            }
+            return describe(command, scene, &configs, arguments.quiet);
+        }
+    }
+}
+
+const accel_command accel_command_info = {
+    .name = "info",
+    .arguments = "SCENE [-a CONFIG]...",
+    .summary = "build structures over a scene and describe them",
+    .flags = flags,
+    .flag_count = sizeof flags / sizeof flags[0],
+    .run = run,
+};

@@ -1,0 +1,78 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * The accel command: the table of subcommands. A new one is one file and one line here.
+ *
+ * Exit codes: 0 fine, 1 a difference was found, 2 bad usage or input.
+ */
+#include "commands.h"
+#include "words.h"
+
+#include <accel/accel.h>
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+
+static const accel_command *const commands[] = {
+    &accel_command_kinds,
+    &accel_command_info,
+};
+
+enum { COMMANDS = sizeof commands / sizeof commands[0] };
+
+static int print_overview(void)
+{
+    printf("usage: accel COMMAND [ARGUMENT]...\n\n"
+           "Exact ray-tracing acceleration structures, version " ACCEL_VERSION ".\n\n");
+    for (size_t i = 0; i < COMMANDS; i++) {
+        printf("  %-8s %s\n", commands[i]->name, commands[i]->summary);
+    }
+    printf(
+        "\n'accel COMMAND --help' explains each. SCENE is a mesh file (PLY, OBJ, STL, OFF, glTF\n"
+        "and what else assimp reads) or a built-in scene, which 'accel kinds' lists.\n"
+        "Exit codes: 0 fine, 1 a difference was found, 2 bad usage or input.\n");
+    return ACCEL_EXIT_FINE;
+}
+
+static int complain_of_command(const char *name)
+{
+    const char *nearest = NULL;
+    size_t distance = SIZE_MAX;
+    for (size_t i = 0; i < COMMANDS; i++) {
+        accel_nearest_offer(name, strlen(name), commands[i]->name, &nearest, &distance);
+    }
+    fprintf(stderr, "accel: unknown command '%.60s'; nearest is %s; 'accel --help' lists all\n",
+            name, nearest);
+    return ACCEL_EXIT_BAD;
+}
+
+static int run(int argc, char **argv)
+{
+    if (argc < 2) {
+        fprintf(stderr, "usage: accel COMMAND [ARGUMENT]...; 'accel --help' lists the commands\n");
+        return ACCEL_EXIT_BAD;
+    }
+    if (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0) {
+        return print_overview();
+    }
+    if (strcmp(argv[1], "--version") == 0) {
+        printf("accel " ACCEL_VERSION "\n");
+        return ACCEL_EXIT_FINE;
+    }
+    for (size_t i = 0; i < COMMANDS; i++) {
+        if (strcmp(argv[1], commands[i]->name) == 0) {
+            return commands[i]->run(commands[i], argc - 1, argv + 1);
+        }
+    }
+    return complain_of_command(argv[1]);
+}
+
+int main(int argc, char **argv)
+{
+    const int code = run(argc, argv);
+    errno = 0;
+    if (fflush(stdout) != 0 || ferror(stdout)) {
+        fprintf(stderr, "accel: cannot write the output: %s\n", strerror(errno));
+        return ACCEL_EXIT_BAD;
+    }
+    return code;
+}

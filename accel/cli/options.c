@@ -1,0 +1,202 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * The walk over the arguments of a subcommand, its help, and its complaints.
+ */
+#include "options.h"
+
+#include "words.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+static const accel_flag common[] = {
+    {"quiet", 'q', NULL, "no progress, no notes: results and errors only"},
+    {"help", 'h', NULL, "print this and end"},
+};
+
+enum { COMMON = sizeof common / sizeof common[0], COMMON_FIRST = 1000 };
+
+accel_arguments accel_arguments_start(const accel_command *command, int argc, char **argv)
+{
+    return (accel_arguments){.command = command, .argv = argv, .argc = argc, .at = 1};
+}
+
+int accel_complain(const accel_command *command, const char *format, ...)
+{
+    va_list list;
+    va_start(list, format);
+    fprintf(stderr, "accel %s: ", command->name);
+    vfprintf(stderr, format, list);
+    fputc('\n', stderr);
+    va_end(list);
+    return ACCEL_EXIT_BAD;
+}
+
+static void print_flag(const accel_flag *flag)
+{
+    char left[60];
+    int length = flag->letter == 0
+                     ? snprintf(left, sizeof left, "      --%s", flag->name)
+                     : snprintf(left, sizeof left, "  -%c, --%s", flag->letter, flag->name);
+    if (flag->argument != NULL) {
+        length += snprintf(left + length, sizeof left - (size_t)length, " %s", flag->argument);
+    }
+    printf("%-26s", left);
+    if (length > 25) {
+        printf("\n%26s", "");
+    }
+    for (const char *c = flag->help; *c != '\0'; c++) {
+        putchar(*c);
+        if (*c == '\n') {
+            printf("%26s", "");
+        }
+    }
+    putchar('\n');
+}
+
+static void print_help(const accel_command *command)
+{
+    printf("usage: accel %s%s%s\n\n%s\n", command->name, *command->arguments == '\0' ? "" : " ",
+           command->arguments, command->summary);
+    if (command->details != NULL) {
+        printf("\n%s\n", command->details);
+    }
+    printf("\n");
+    for (size_t i = 0; i < command->flag_count; i++) {
+        print_flag(&command->flags[i]);
+    }
+    for (size_t i = 0; i < COMMON; i++) {
+        print_flag(&common[i]);
+    }
+}
+
+static const accel_flag *flag_at(const accel_command *command, int index)
+{
+    return index >= COMMON_FIRST ? &common[index - COMMON_FIRST] : &command->flags[index];
+}
+
+static int find_letter(const accel_command *command, char letter)
+{
+    for (size_t i = 0; i < command->flag_count; i++) {
+        if (command->flags[i].letter == letter) {
+            return (int)i;
+        }
+    }
+    for (int i = 0; i < COMMON; i++) {
+        if (common[i].letter == letter) {
+            return COMMON_FIRST + i;
+        }
+    }
+    return -1;
+}
+
+static int find_name(const accel_command *command, const char *name, size_t length,
+                     const char **nearest)
+{
+    size_t distance = SIZE_MAX;
+    for (int i = 0; i < (int)command->flag_count + COMMON; i++) {
+        const int index =
+            i < (int)command->flag_count ? i : COMMON_FIRST + i - (int)command->flag_count;
+        const char *legal = flag_at(command, index)->name;
+        if (strlen(legal) == length && memcmp(legal, name, length) == 0) {
+            return index;
+        }
+        accel_nearest_offer(name, length, legal, nearest, &distance);
+    }
+    return -1;
+}
+
+static int stop(accel_arguments *a, int code)
+{
+    a->exit_code = code;
+    return ACCEL_ARGUMENT_STOP;
+}
+
+/* The flag `index` has been named; `attached` is the value behind it, or NULL. */
+static int take_flag(accel_arguments *a, int index, const char *attached)
+{
+    const accel_flag *flag = flag_at(a->command, index);
+    if (flag->argument == NULL && attached != NULL) {
+        return stop(a, accel_complain(a->command, "--%s takes no value", flag->name));
+    }
+    if (index == COMMON_FIRST) {
+        a->quiet = true;
+        return accel_next_argument(a);
+    }
+    if (index == COMMON_FIRST + 1) {
+        print_help(a->command);
+        return stop(a, ACCEL_EXIT_FINE);
+    }
+    a->value = attached;
+    if (flag->argument != NULL && attached == NULL) {
+        if (a->at >= a->argc) {
+            return stop(a, accel_complain(a->command, "--%s needs a value: %s", flag->name,
+                                          flag->argument));
+        }
+        a->value = a->argv[a->at++];
+    }
+    return index;
+}
+
+static int take_long(accel_arguments *a, const char *name)
+{
+    const size_t length = strcspn(name, "=");
+    const char *nearest = NULL;
+    const int index = find_name(a->command, name, length, &nearest);
+    if (index < 0) {
+        return stop(a, accel_complain(a->command, "unknown option --%.*s; nearest is --%s",
+                                      (int)length, name, nearest));
+    }
+    return take_flag(a, index, name[length] == '=' ? name + length + 1 : NULL);
+}
+
+static int take_short(accel_arguments *a, const char *letters)
+{
+    const int index = find_letter(a->command, letters[0]);
+    if (index < 0) {
+        return stop(a, accel_complain(a->command,
+                                      "unknown option -%c; 'accel %s --help' lists the options",
+                                      letters[0], a->command->name));
+    }
+    return take_flag(a, index, letters[1] == '\0' ? NULL : letters + 1);
+}
+
+int accel_next_argument(accel_arguments *a)
+{
+    if (a->at >= a->argc) {
+        return ACCEL_ARGUMENT_END;
+    }
+    const char *word = a->argv[a->at++];
+    if (a->words_only || word[0] != '-' || word[1] == '\0') {
+        a->value = word;
+        return ACCEL_ARGUMENT_WORD;
+    }
+    if (strcmp(word, "--") == 0) {
+        a->words_only = true;
+        return accel_next_argument(a);
+    }
+    return word[1] == '-' ? take_long(a, word + 2) : take_short(a, word + 1);
+}
+
+bool accel_whole_argument(const accel_arguments *a, int flag, uint64_t min, uint64_t max,
+                          uint64_t *out)
+{
+    if (accel_read_whole(a->value, min, max, out)) {
+        return true;
+    }
+    accel_complain(a->command, "--%s is '%.60s'; allowed is a whole number from %llu to %llu",
+                   a->command->flags[flag].name, a->value, (unsigned long long)min,
+                   (unsigned long long)max);
+    return false;
+}
+
+bool accel_one_word(const accel_arguments *a, const char *what, const char **word)
+{
+    if (*word != NULL) {
+        accel_complain(a->command, "unexpected '%.60s': one %s is enough", a->value, what);
+        return false;
+    }
+    *word = a->value;
+    return true;
+}

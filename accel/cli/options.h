@@ -1,0 +1,71 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * Options of the subcommands: one table serves parser, help and "nearest".
+ *
+ * Written as -x VALUE, -xVALUE, --name VALUE or --name=VALUE; "--" ends the options. --help and
+ * --quiet are understood everywhere.
+ */
+#ifndef ACCEL_CLI_OPTIONS_H
+#define ACCEL_CLI_OPTIONS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/* One option. */
+typedef struct accel_flag {
+    const char *name;     /* without the dashes */
+    char letter;          /* of the short form, or 0 */
+    const char *argument; /* the name of its value in the help, or NULL if it has none */
+    const char *help;     /* one or more lines */
+} accel_flag;
+
+/* A subcommand. */
+typedef struct accel_command {
+    const char *name;        /* first word after "accel" */
+    const char *arguments;   /* for the usage line */
+    const char *summary;     /* one line */
+    const char *details;     /* paragraphs for --help, or NULL */
+    const accel_flag *flags; /* `flag_count` of them, --help and --quiet not among them */
+    size_t flag_count;
+    /* Runs it: argv[1] is the first argument. Returns the exit code. */
+    int (*run)(const struct accel_command *command, int argc, char **argv);
+} accel_command;
+
+/* Exit codes. */
+enum { ACCEL_EXIT_FINE = 0, ACCEL_EXIT_DIFFERENT = 1, ACCEL_EXIT_BAD = 2 };
+
+/* What accel_next_argument found, apart from the index of a flag. */
+enum { ACCEL_ARGUMENT_WORD = -1, ACCEL_ARGUMENT_END = -2, ACCEL_ARGUMENT_STOP = -3 };
+
+/* A walk over the arguments. */
+typedef struct accel_arguments {
+    const accel_command *command;
+    char **argv;
+    int argc;
+    int at;            /* of the next argument */
+    bool words_only;   /* "--" has been seen */
+    bool quiet;        /* --quiet has been seen */
+    int exit_code;     /* after ACCEL_ARGUMENT_STOP */
+    const char *value; /* of the flag, or the word */
+} accel_arguments;
+
+/* Starts a walk. */
+accel_arguments accel_arguments_start(const accel_command *command, int argc, char **argv);
+
+/* The index of the next flag in command->flags with its value in a->value, or one of the above.
+ * ACCEL_ARGUMENT_STOP: help or an error has been printed; return a->exit_code. */
+int accel_next_argument(accel_arguments *a);
+
+/* Prints "accel NAME: TEXT" to stderr and returns ACCEL_EXIT_BAD. */
+int accel_complain(const accel_command *command, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+
+/* Reads a->value as a whole number in min..max, or complains and returns false. */
+bool accel_whole_argument(const accel_arguments *a, int flag, uint64_t min, uint64_t max,
+                          uint64_t *out);
+
+/* Takes the one SCENE argument, or complains and returns false. */
+bool accel_one_word(const accel_arguments *a, const char *what, const char **word);
+
+#endif

@@ -1,0 +1,72 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * The paper's figure 3 and table 1: two clusters of 8 x 8 x 8 cubes, 12 triangles each.
+ *
+ * Cubes have edge 1 and whole coordinates, so that faces lie on the planes of a lattice. The second
+ * cluster stands beside the first along x, `gap` cluster sides of empty space between them. Every
+ * cube has its own eight vertices.
+ */
+#include "scene_build.h"
+
+enum { PER_SIDE = 8 };
+
+static const accel_option options[] = {
+    {.key = "gap",
+     .meaning = "empty space between the clusters, in cluster sides",
+     .min = 0.0,
+     .max = 1e6,
+     .standard = 100.0},
+    {.key = "space",
+     .meaning = "empty space between two cubes, in cube edges",
+     .min = 0.0,
+     .max = 100.0,
+     .standard = 1.0},
+};
+
+/* Bit k of a corner's number is its side along axis k; the triangles face outward. */
+static const uint32_t faces[12][3] = {
+    {0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+    {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5},
+};
+
+static void add_cube(accel_growing *mesh, const double at[3])
+{
+    uint32_t first = 0;
+    for (int corner = 0; corner < 8; corner++) {
+        const uint32_t vertex = accel_grow_vertex(
+            mesh, at[0] + (corner & 1), at[1] + (corner >> 1 & 1), at[2] + (corner >> 2 & 1));
+        first = corner == 0 ? vertex : first;
+    }
+    for (int i = 0; i < 12; i++) {
+        accel_grow_triangle(mesh, first + faces[i][0], first + faces[i][1], first + faces[i][2]);
+    }
+}
+
+static void add_cluster(accel_growing *mesh, double from_x, double pitch)
+{
+    for (int x = 0; x < PER_SIDE; x++) {
+        for (int y = 0; y < PER_SIDE; y++) {
+            for (int z = 0; z < PER_SIDE; z++) {
+                add_cube(mesh, (const double[3]){from_x + x * pitch, y * pitch, z * pitch});
+            }
+        }
+    }
+}
+
+static bool generate(accel_loaded *out, const double *values)
+{
+    const double pitch = 1.0 + values[1];
+    const double side = (PER_SIDE - 1) * pitch + 1.0;
+    accel_growing mesh = {0};
+    add_cluster(&mesh, 0.0, pitch);
+    add_cluster(&mesh, side * (1.0 + values[0]), pitch);
+    return accel_loaded_add(out, ACCEL_TRIANGLES, &mesh);
+}
+
+const accel_generator accel_generator_cubes = {
+    .info = {.name = "cubes",
+             .summary = "two clusters of 8 x 8 x 8 cubes, 12,288 triangles (the paper's figure 3)",
+             .options = options,
+             .option_count = sizeof options / sizeof options[0]},
+    .generate = generate,
+};

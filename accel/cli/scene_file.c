@@ -1,0 +1,199 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * Mesh files, hardened: the file is opened once and must be regular, its size is capped, what its
+ * header promises is compared with the bytes that are there, and the importer runs in a child
+ * process whose every number is checked again before it is used.
+ */
+#include "scene_file.h"
+#include "scene_build.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* Enough for 10^8 triangles in text; beyond it a file is a mistake or an attack. */
+#define MOST_FILE_BYTES ((uint64_t)8 << 30)
+
+/* Bytes that importing a file may take: text formats hold a number in two bytes, and the importers
+ * keep about a hundred bytes for each. */
+static uint64_t memory_for(size_t file_bytes)
+{
+    return ((uint64_t)1 << 30) + 100 * (uint64_t)file_bytes;
+}
+
+/* Processor seconds: a fixed minute, and a pace that the slowest importer keeps tenfold. */
+static unsigned seconds_for(size_t file_bytes)
+{
+    return 60 + (unsigned)(file_bytes / 200000);
+}
+
+static bool fail(const char *path, const char *trouble, accel_error *error)
+{
+    error->status = ACCEL_BAD_ARGUMENT;
+    snprintf(error->text, sizeof error->text, "%.200s: %s; nothing was loaded", path, trouble);
+    return false;
+}
+
+static const char *why_not_a_file(int descriptor, uint64_t *size)
+{
+    struct stat status;
+    if (fstat(descriptor, &status) != 0) {
+        return strerror(errno);
+    }
+    if (S_ISDIR(status.st_mode)) {
+        return "is a directory, not a mesh file";
+    }
+    if (!S_ISREG(status.st_mode)) {
+        return "is not a regular file";
+    }
+    *size = (uint64_t)status.st_size;
+    if (*size == 0) {
+        return "is empty";
+    }
+    return *size > MOST_FILE_BYTES ? "is larger than 8 GiB" : NULL;
+}
+
+static const char *read_all(int descriptor, accel_file *file)
+{
+    size_t done = 0;
+    while (done < file->size) {
+        const ssize_t got = read(descriptor, file->bytes + done, file->size - done);
+        if (got == 0) {
+            return "became shorter while it was read";
+        }
+        if (got < 0 && errno != EINTR) {
+            return strerror(errno);
+        }
+        done += got > 0 ? (size_t)got : 0;
+    }
+    return NULL;
+}
+
+static const char *read_open_file(int descriptor, accel_file *file)
+{
+    uint64_t size = 0;
+    const char *trouble = why_not_a_file(descriptor, &size);
+    if (trouble != NULL) {
+        return trouble;
+    }
+    file->size = (size_t)size;
+    file->bytes = calloc(file->size + 1, 1);
+    if (file->bytes == NULL) {
+        return "does not fit into memory";
+    }
+    trouble = read_all(descriptor, file);
+    if (trouble != NULL) {
+        free(file->bytes);
+        file->bytes = NULL;
+    }
+    return trouble;
+}
+
+bool accel_file_read(accel_file *file, const char *path, accel_error *error)
+{
+    *file = (accel_file){.path = path};
+    /* without O_NONBLOCK a pipe would wait for its writer */
+    const int descriptor = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    if (descriptor < 0) {
+        return fail(path, strerror(errno), error);
+    }
+    const char *trouble = read_open_file(descriptor, file);
+    close(descriptor);
+    file->memory = memory_for(file->size);
+    return trouble == NULL || fail(path, trouble, error);
+}
+
+static bool indices_are_fine(const accel_growing *mesh)
+{
+    for (size_t i = 0; i < mesh->index_count; i++) {
+        if (mesh->indices[i] >= mesh->number_count / 3) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Takes one geometry from the child. Returns NULL, or what is wrong. */
+static const char *receive_geometry(accel_child *child, accel_loaded *out)
+{
+    accel_file_head head;
+    if (!accel_child_read(child, &head, sizeof head)) {
+        return "its reader ended early";
+    }
+    accel_growing mesh = {.number_count = 3 * (size_t)head.vertices,
+                          .index_count = 3 * (size_t)head.triangles};
+    mesh.numbers = malloc(mesh.number_count * sizeof *mesh.numbers + 1);
+    mesh.indices = malloc(mesh.index_count * sizeof *mesh.indices + 1);
+    const char *trouble = NULL;
+    if (mesh.numbers == NULL || mesh.indices == NULL) {
+        trouble = "does not fit into memory";
+    } else if (!accel_child_read(child, mesh.numbers, mesh.number_count * sizeof *mesh.numbers) ||
+               !accel_child_read(child, mesh.indices, mesh.index_count * sizeof *mesh.indices)) {
+        trouble = "its reader ended early";
+    } else if (!indices_are_fine(&mesh)) {
+        trouble = "a face refers to a vertex that is not there";
+    }
+    mesh.failed = trouble != NULL;
+    if (!accel_loaded_add(out, ACCEL_TRIANGLES, &mesh) && trouble == NULL) {
+        trouble = "does not fit into memory";
+    }
+    return trouble;
+}
+
+static const char *receive(accel_child *child, accel_loaded *out, accel_file_verdict *verdict)
+{
+    if (!accel_child_read(child, verdict, sizeof *verdict)) {
+        return "its reader ended early";
+    }
+    verdict->trouble[sizeof verdict->trouble - 1] = '\0';
+    if (verdict->trouble[0] != '\0') {
+        return verdict->trouble;
+    }
+    const char *trouble = NULL;
+    for (uint32_t g = 0; g < verdict->geometries && trouble == NULL; g++) {
+        trouble = receive_geometry(child, out);
+    }
+    out->left_out = verdict->left_out;
+    return trouble == NULL && accel_scene_primitives(&out->scene) == 0 ? "holds no triangle"
+                                                                       : trouble;
+}
+
+static bool import(accel_loaded *out, accel_file *file, accel_load_progress *progress, void *user,
+                   accel_error *error)
+{
+    accel_child child;
+    const accel_child_limits limits = {file->memory, seconds_for(file->size)};
+    if (!accel_child_start(&child, limits, accel_file_import, file)) {
+        return fail(file->path, "no process for its reader", error);
+    }
+    child.tick = progress;
+    child.user = user;
+    accel_file_verdict verdict;
+    const char *trouble = receive(&child, out, &verdict);
+    const char *end = accel_child_end(&child);
+    /* a child that died explains more than the bytes that are missing */
+    trouble = trouble != NULL && end != NULL ? end : trouble;
+    return trouble == NULL || fail(file->path, trouble, error);
+}
+
+bool accel_load_file(accel_loaded *out, const char *path, accel_load_progress *progress, void *user,
+                     accel_error *error)
+{
+    accel_file file;
+    if (!accel_file_read(&file, path, error)) {
+        return false;
+    }
+    char text[200];
+    const char *trouble = accel_file_counts(&file, text);
+    const bool fine =
+        trouble == NULL ? import(out, &file, progress, user, error) : fail(path, trouble, error);
+    if (!fine) {
+        accel_unload_scene(out);
+    }
+    free(file.bytes);
+    return fine;
+}

@@ -1,0 +1,49 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * Between the parts of the mesh file loader: the bytes of a file, the checks of what its header
+ * promises, the importer in the child, and what it sends.
+ */
+#ifndef ACCEL_CLI_SCENE_FILE_H
+#define ACCEL_CLI_SCENE_FILE_H
+
+#include "child.h"
+
+#include <accel/accel.h>
+#include <assimp/cfileio.h>
+
+/* A whole file in memory. */
+typedef struct accel_file {
+    const char *path; /* as the user gave it */
+    char *bytes;      /* `size` of them and a zero behind */
+    size_t size;
+    uint64_t memory; /* bytes that importing it may take */
+} accel_file;
+
+/* Reads a regular file. Otherwise fills error->text and holds nothing. */
+bool accel_file_read(accel_file *file, const char *path, accel_error *error);
+
+/* Compares what the headers of PLY, OFF and STL files promise with the bytes that are there.
+ * Returns NULL where nothing is wrong or the format has no counts; otherwise what is wrong. `text`
+ * is room for it. */
+const char *accel_file_counts(const accel_file *file, char text[200]);
+
+/* What the child says first. */
+typedef struct accel_file_verdict {
+    char trouble[240];   /* why nothing follows, or empty */
+    uint64_t left_out;   /* points and lines */
+    uint32_t geometries; /* that follow */
+} accel_file_verdict;
+
+/* What goes before the vertices (three doubles) and triangles (three uint32_t) of a geometry. */
+typedef struct accel_file_head {
+    uint32_t vertices, triangles;
+} accel_file_head;
+
+/* The child's part; `user` is the accel_file. */
+accel_child_work accel_file_import;
+
+/* assimp's doors to files: the file in memory, and the buffers of a glTF beside it. */
+struct aiFile *accel_file_open(struct aiFileIO *io, const char *path, const char *mode);
+void accel_file_close(struct aiFileIO *io, struct aiFile *file);
+
+#endif

@@ -1,0 +1,91 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * Scenes at the limits: nothing, one triangle, many at one place, spheres within spheres.
+ */
+#include "scene_build.h"
+
+static const accel_option same_options[] = {
+    {.key = "n",
+     .meaning = "number of triangles",
+     .min = 0.0,
+     .max = 1e8,
+     .standard = 1e6,
+     .whole = true},
+};
+
+static const accel_option nested_options[] = {
+    {.key = "n",
+     .meaning = "number of spheres; the radii are 1, 1/2, 1/4, ...",
+     .min = 0.0,
+     .max = 1000.0,
+     .standard = 1000.0,
+     .whole = true},
+};
+
+/* `count` times the triangle (0,0,0) (1,0,0) (0,1,0), each with vertices of its own. */
+static bool add_same(accel_loaded *out, uint64_t count)
+{
+    accel_growing mesh = {0};
+    for (uint64_t i = 0; i < count && !mesh.failed; i++) {
+        const uint32_t a = accel_grow_vertex(&mesh, 0.0, 0.0, 0.0);
+        const uint32_t b = accel_grow_vertex(&mesh, 1.0, 0.0, 0.0);
+        const uint32_t c = accel_grow_vertex(&mesh, 0.0, 1.0, 0.0);
+        accel_grow_triangle(&mesh, a, b, c);
+    }
+    return accel_loaded_add(out, ACCEL_TRIANGLES, &mesh);
+}
+
+static bool generate_same(accel_loaded *out, const double *values)
+{
+    return add_same(out, (uint64_t)values[0]);
+}
+
+static bool generate_one(accel_loaded *out, const double *values)
+{
+    (void)values;
+    return add_same(out, 1);
+}
+
+static bool generate_empty(accel_loaded *out, const double *values)
+{
+    (void)values;
+    return add_same(out, 0);
+}
+
+/* All touch the origin from the same side, so that their centres differ as well. */
+static bool generate_nested(accel_loaded *out, const double *values)
+{
+    accel_growing spheres = {0};
+    double radius = 1.0;
+    for (int i = 0; i < (int)values[0]; i++) {
+        accel_grow_sphere(&spheres, radius, 0.0, 0.0, radius);
+        radius *= 0.5;
+    }
+    return accel_loaded_add(out, ACCEL_SPHERES, &spheres);
+}
+
+const accel_generator accel_generator_same = {
+    .info = {.name = "same",
+             .summary = "triangles that all lie at one place",
+             .options = same_options,
+             .option_count = sizeof same_options / sizeof same_options[0]},
+    .generate = generate_same,
+};
+
+const accel_generator accel_generator_nested = {
+    .info = {.name = "nested",
+             .summary = "spheres within spheres, each half as large, touching at one point",
+             .options = nested_options,
+             .option_count = sizeof nested_options / sizeof nested_options[0]},
+    .generate = generate_nested,
+};
+
+const accel_generator accel_generator_one = {
+    .info = {.name = "one", .summary = "one triangle"},
+    .generate = generate_one,
+};
+
+const accel_generator accel_generator_empty = {
+    .info = {.name = "empty", .summary = "no primitive at all"},
+    .generate = generate_empty,
+};

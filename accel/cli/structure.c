@@ -1,0 +1,47 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * Loading a scene and building structures for a subcommand.
+ */
+#include "structure.h"
+
+bool accel_configs_add(accel_configs *configs, const char *config, const accel_command *command)
+{
+    if (configs->count == ACCEL_MOST_CONFIGS) {
+        accel_complain(command, "more than %d configs; allowed are %d", ACCEL_MOST_CONFIGS,
+                       ACCEL_MOST_CONFIGS);
+        return false;
+    }
+    configs->items[configs->count++] = config;
+    return true;
+}
+
+bool accel_open_scene(accel_loaded *loaded, const char *name, const accel_command *command,
+                      accel_progress *progress)
+{
+    accel_error error;
+    progress->what = name;
+    const bool fine = accel_load_scene(loaded, name, accel_progress_load, progress, &error);
+    progress->what = NULL;
+    accel_progress_clear(progress);
+    if (!fine) {
+        accel_complain(command, "%s", error.text);
+    }
+    return fine;
+}
+
+accel *accel_open_structure(const accel_loaded *loaded, const char *config,
+                            const accel_command *command, accel_progress *progress)
+{
+    accel *a;
+    accel_error error;
+    const accel_hooks hooks = {.user = progress, .progress = accel_progress_build};
+    progress->what = config;
+    const accel_status status = accel_build(&a, &loaded->scene, config, &hooks, &error);
+    progress->what = NULL;
+    accel_progress_clear(progress);
+    if (status != ACCEL_OK) {
+        accel_complain(command, "%s", error.text);
+        return NULL;
+    }
+    return a;
+}

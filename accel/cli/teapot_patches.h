@@ -1,0 +1,17 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * The control points of the Utah teapot: see teapot_patches.c.
+ */
+#ifndef ACCEL_CLI_TEAPOT_PATCHES_H
+#define ACCEL_CLI_TEAPOT_PATCHES_H
+
+#include <stdint.h>
+
+enum { ACCEL_TEAPOT_PATCHES = 32, ACCEL_TEAPOT_POINTS = 306 };
+
+/* Four rows of four indices, counted from 1, into accel_teapot_points. */
+extern const uint16_t accel_teapot_patches[ACCEL_TEAPOT_PATCHES][16];
+
+extern const double accel_teapot_points[ACCEL_TEAPOT_POINTS][3];
+
+#endif

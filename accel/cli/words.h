@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * Words and numbers that a user typed: nearest legal word, strict numbers.
+ */
+#ifndef ACCEL_CLI_WORDS_H
+#define ACCEL_CLI_WORDS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/* Finds the word nearest to the first `length` bytes of `typed`; one that begins with them is
+ * nearest of all. Start with *best NULL and *distance SIZE_MAX and offer the legal words. */
+void accel_nearest_offer(const char *typed, size_t length, const char *word, const char **best,
+                         size_t *distance);
+
+/* Reads the whole of text[0..length) as a decimal number; no nan, no inf, no hex, no blanks. */
+bool accel_read_number(const char *text, size_t length, double *out);
+
+/* Reads the whole of `text` as any double that strtod takes: hex floats, inf, nan as well. */
+bool accel_read_exact(const char *text, double *out);
+
+/* Reads the whole of `text` as a decimal whole number in min..max. */
+bool accel_read_whole(const char *text, uint64_t min, uint64_t max, uint64_t *out);
+
+#endif
