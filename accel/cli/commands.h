@@ -8,6 +8,6 @@
 #include "options.h"
 
 extern const accel_command accel_command_kinds, accel_command_info, accel_command_check,
-    accel_command_trace, accel_command_diff;
+    accel_command_trace, accel_command_diff, accel_command_export;
 
 #endif

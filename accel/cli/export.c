@@ -118,7 +118,8 @@ static int run(const accel_command *command, int argc, char **argv)
             break;
         default:
             if (job.scene == NULL || job.output == NULL) {
-                return accel_complain(command, "SCENE and -o FILE.inc are needed; usage: accel %s %s",
+                return accel_complain(command,
+                                      "SCENE and -o FILE.inc are needed; usage: accel %s %s",
                                       command->name, command->arguments);
             }
             return load_and_export(command, &job, arguments.quiet);

@@ -15,6 +15,7 @@
 static const accel_command *const commands[] = {
     &accel_command_kinds,
     &accel_command_info,
+    &accel_command_export,
 };
 
 enum { COMMANDS = sizeof commands / sizeof commands[0] };
