@@ -16,6 +16,7 @@ static const accel_command *const commands[] = {
     &accel_command_kinds,
     &accel_command_info,
     &accel_command_export,
+    &accel_command_photons,
 };
 
 enum { COMMANDS = sizeof commands / sizeof commands[0] };

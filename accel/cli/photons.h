@@ -1,0 +1,144 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * Photon illumination: what the hierarchy-of-octrees paper times.
+ *
+ * Rectangular lights shoot photons; every surface reflects diffusely on both sides and keeps each
+ * photon with the chance `reflectance` (Russian roulette), so a photon's power never changes. Every
+ * hit is stored, with the straight path that led to it.
+ *
+ * The random numbers of a step are named by (seed, light, photon, bounce): see random.h. So every
+ * structure and every number of threads traces the same paths, and stores the same bits in the same
+ * order: by light, photon, bounce. The next path starts on the primitive that was hit, which is
+ * excluded by its id; there is no epsilon.
+ */
+#ifndef ACCEL_CLI_PHOTONS_H
+#define ACCEL_CLI_PHOTONS_H
+
+#include "scene.h"
+
+/* A rectangle: corner + a edge[0] + b edge[1] for a, b in 0..1. It emits by the cosine from the
+ * side that edge[0] x edge[1] points to. It is not an object: photons pass through it. */
+typedef struct accel_light {
+    double corner[3];
+    double edge[2][3];
+    double power; /* flux of the whole rectangle */
+} accel_light;
+
+/* The lights of one run. */
+typedef struct accel_lights {
+    const accel_light *at;
+    uint32_t count;
+} accel_lights;
+
+/* Where a photon hit, and the end of the path that led there. 72 bytes, none of them padding. */
+typedef struct accel_photon {
+    double at[3];        /* the hit */
+    double dir[3];       /* of the path, of length 1 up to rounding */
+    double length;       /* of the path: it began at at - length * dir */
+    uint32_t geom, prim; /* what was hit */
+    uint32_t number;     /* of the photon among its light's */
+    uint16_t light;      /* that shot it */
+    uint16_t bounce;     /* reflections before this hit */
+} accel_photon;
+
+/* What to trace. */
+typedef struct accel_photon_run {
+    accel_lights lights;
+    uint32_t photons;   /* for each light */
+    double reflectance; /* of every surface, 0 .. ACCEL_MOST_REFLECTANCE */
+    uint64_t seed;
+    unsigned threads;
+    /* Called now and then from the calling thread; may be NULL. */
+    void (*progress)(void *user, double done);
+    void *user; /* handed to progress */
+} accel_photon_run;
+
+/* A photon survives n reflections with the chance 0.99^n: 65,535, the limit of `bounce`, are out of
+ * reach (10^-286). */
+#define ACCEL_MOST_REFLECTANCE 0.99
+
+/* What was traced. Ended by accel_photons_free. */
+typedef struct accel_photons {
+    accel_photon *at; /* by light, photon, bounce */
+    size_t count;
+    uint64_t emitted;  /* photons; each is absorbed or escapes */
+    uint64_t absorbed; /* by a surface */
+    uint64_t escaped;  /* left the scene */
+    uint64_t rays;     /* traced */
+    accel_query query; /* counts of all rays */
+    double seconds;    /* of emission, tracing and storing */
+} accel_photons;
+
+/* Traces run->photons photons of each light through `a`, which was built over `scene`. Returns
+ * false, and holds nothing, if memory runs out. */
+bool accel_trace_photons(accel_photons *out, const accel *a, const accel_scene *scene,
+                         const accel_photon_run *run);
+
+void accel_photons_free(accel_photons *photons);
+
+/* FNV-1a, 64 bits, of all stored bytes in order. */
+uint64_t accel_photons_hash(const accel_photons *photons);
+
+/* The power of one photon of light `light`. */
+double accel_photon_power(const accel_photon_run *run, uint32_t light);
+
+enum { ACCEL_MOST_LIGHTS = 16 };
+
+/* The lights of a scene: a square above each cluster for cubes, as large as the cluster and half
+ * its side away; one rectangle above the box for all others, as wide as the box and a quarter of
+ * its diagonal away. Up is y. They shine down with power 1 each. Returns their number. */
+uint32_t accel_scene_lights(const char *name, const accel_scene *scene,
+                            accel_light lights[ACCEL_MOST_LIGHTS]);
+
+/* Reads "x,y,z:x,y,z:x,y,z[:power]", corner and the two edges; power 1 if it is not given. Returns
+ * NULL, or what is wrong with it. */
+const char *accel_read_light(const char *text, accel_light *light);
+
+/* ------------------------------------------------------------- irradiance ---- */
+
+/* A point of a surface whose irradiance is wanted, and the unit normal of the lit side. */
+typedef struct accel_receiver {
+    double at[3], normal[3];
+} accel_receiver;
+
+/* The receivers of one estimate. */
+typedef struct accel_receivers {
+    const accel_receiver *at;
+    size_t count;
+} accel_receivers;
+
+/* Irradiance by the nearest photons (Jensen, "Realistic Image Synthesis Using Photon Mapping",
+ * 2001): the power of the nearest - 1 photons within the distance r of number `nearest`, over
+ * pi r^2, which is the unbiased form for even light on a plane; where fewer lie within `radius`,
+ * all of them over pi radius^2. Only photons that come from the front count. Fills irradiance[i]
+ * for each receiver. Returns false if memory runs out. Bad at: edges and corners, where part of the
+ * disc holds no surface, and small objects. */
+bool accel_irradiance_nearest(const accel_photons *photons, const accel_photon_run *run,
+                              accel_receivers receivers, double radius, uint32_t nearest,
+                              double *irradiance);
+
+/* Irradiance by density estimation on paths (Lastra, Urena, Revelles, Montes, "A Particle-Path
+ * based Method for Monte Carlo Density Estimation", EG Workshop on Rendering 2002): a disc of
+ * `radius` on the tangent plane of each receiver; the power of all paths that cross it from the
+ * front, over pi radius^2. No cosine: a tilted disc catches fewer paths by itself.
+ *
+ * What counts as crossing: the path meets the plane from the front, 0 < t < length + radius, at a
+ * distance < radius from the receiver. The extension by one radius is what the paper leaves open. A
+ * path that ends on the disc's own surface must not stop short of the plane by rounding, or where
+ * the surface bends up from it; and in a corner the paths that the wall stops would have crossed
+ * the part of the disc behind the wall. The price: light leaks through what is nearer to the disc
+ * than one radius.
+ *
+ * The paths are sent through a structure of the library over the discs, which `config` names:
+ * accel_all visits every disc that a path crosses once. Powers are counted for each light, so the
+ * result does not depend on order or threads. Returns false with the reason in *error. */
+bool accel_irradiance_paths(const accel_photons *photons, const accel_photon_run *run,
+                            accel_receivers receivers, double radius, const char *config,
+                            double *irradiance, accel_query *query, accel_error *error);
+
+/* A radius whose disc is crossed by about `paths` paths, as if all of them hit the scene's surface
+ * evenly. */
+double accel_irradiance_radius(const accel_photons *photons, const accel_scene *scene,
+                               double paths);
+
+#endif
