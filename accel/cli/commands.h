@@ -9,6 +9,6 @@
 
 extern const accel_command accel_command_kinds, accel_command_info, accel_command_check,
     accel_command_trace, accel_command_diff, accel_command_export;
-extern const accel_command accel_command_photons;
+extern const accel_command accel_command_photons, accel_command_tables;
 
 #endif

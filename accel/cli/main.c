@@ -17,6 +17,7 @@ static const accel_command *const commands[] = {
     &accel_command_info,
     &accel_command_export,
     &accel_command_photons,
+    &accel_command_tables,
 };
 
 enum { COMMANDS = sizeof commands / sizeof commands[0] };

@@ -1,0 +1,38 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * Timing structures against each other by photons: all are built first, then they take turns, so
+ * that whatever else the machine does falls on all of them; medians are compared.
+ */
+#ifndef ACCEL_CLI_TRIALS_H
+#define ACCEL_CLI_TRIALS_H
+
+#include "photons.h"
+#include "structure.h"
+
+enum { ACCEL_MOST_REPEATS = 101 };
+
+/* One structure. */
+typedef struct accel_trial {
+    const char *config;
+    accel *structure;
+    accel_info info;                    /* of the structure */
+    double seconds[ACCEL_MOST_REPEATS]; /* of illumination; sorted in the end */
+    double median, quartiles[2];        /* of them */
+    accel_photons photons;              /* counts of one run; the list itself is gone */
+} accel_trial;
+
+/* A scene and the structures that take turns on it. */
+typedef struct accel_trials {
+    const char *scene;
+    accel_trial *at; /* count of them, config set */
+    size_t count;
+    unsigned repeats;
+    accel_photon_run run; /* its lights are the scene's own */
+    uint64_t hash;        /* of what all have stored */
+} accel_trials;
+
+/* Runs them. Returns the exit code; ACCEL_EXIT_DIFFERENT where two stored different bits, which has
+ * been printed. Structures are gone afterwards. */
+int accel_trials_run(accel_trials *trials, const accel_command *command, accel_progress *progress);
+
+#endif
