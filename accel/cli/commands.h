@@ -7,8 +7,13 @@
 
 #include "options.h"
 
-extern const accel_command accel_command_kinds, accel_command_info, accel_command_check,
-    accel_command_trace, accel_command_diff, accel_command_export;
-extern const accel_command accel_command_photons, accel_command_tables;
+extern const accel_command accel_command_kinds;
+extern const accel_command accel_command_info;
+extern const accel_command accel_command_check;
+extern const accel_command accel_command_trace;
+extern const accel_command accel_command_diff;
+extern const accel_command accel_command_export;
+extern const accel_command accel_command_photons;
+extern const accel_command accel_command_tables;
 
 #endif

@@ -1,0 +1,61 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * Between the parts of accel check: the run over many rays, its tallies, the replay of one ray.
+ */
+#ifndef ACCEL_CLI_CHECK_H
+#define ACCEL_CLI_CHECK_H
+
+#include "judge.h"
+#include "rays.h"
+#include "structure.h"
+
+/* One structure under check. */
+typedef struct accel_suspect {
+    accel *structure;
+    accel_info info; /* describes it */
+    bool added;      /* not asked for: a second opinion where linear judges a sample only */
+    uint64_t hits;   /* rays that hit */
+    uint64_t family_hits[ACCEL_FAMILIES];
+    uint64_t refused;     /* rays that were not valid */
+    uint64_t mismatches;  /* rays with any difference */
+    uint64_t by_query[4]; /* of them by accel_closest, accel_any, accel_all, accel_point */
+    uint64_t first;       /* the lowest ray with a difference; UINT64_MAX for none */
+} accel_suspect;
+
+/* A whole check. */
+typedef struct accel_check {
+    const accel_command *command;
+    const char *scene_name;
+    accel_loaded loaded;
+    accel *judge; /* linear */
+    accel_suspect suspects[ACCEL_MOST_CONFIGS + 1];
+    size_t suspect_count;
+    accel_rays rays;
+    uint64_t ray_count;    /* to check */
+    uint64_t judged_count; /* of them by linear */
+    unsigned threads;
+    accel_progress progress;
+} accel_check;
+
+/* One ray in 2^4 of each family is asked accel_all and accel_point as well. */
+enum { ACCEL_LISTS_EVERY = 16 };
+
+/* Question number `index`. Lists need the closest hit of some structure for their point. */
+accel_question accel_check_question(const accel_check *check, uint64_t index);
+
+/* Does linear judge ray `index`? They lie evenly in each family. */
+bool accel_check_judged(const accel_check *check, uint64_t index);
+
+/* Checks all rays and fills the tallies. Returns false when memory runs out. */
+bool accel_check_run(accel_check *check);
+
+/* Prints the tallies and the rays that differ. Returns the exit code. */
+int accel_check_report(const accel_check *check);
+
+/* Reads "ox oy oz dx dy dz tmin tmax [geom prim]"; false where it is something else. */
+bool accel_check_read_ray(const char *text, accel_ray *ray);
+
+/* Asks linear and all suspects for one ray and prints their answers. Returns the exit code. */
+int accel_check_replay(const accel_check *check, const accel_ray *ray);
+
+#endif

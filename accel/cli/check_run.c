@@ -1,0 +1,167 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * The run of accel check: threads take blocks of rays, ask every structure, and compare.
+ *
+ * What is expected is linear's answer where linear judges the ray, and otherwise what the first
+ * structure says; where another one disagrees with it, linear is asked after all and decides.
+ */
+#include "check.h"
+
+#include "crew.h"
+
+#include <stdatomic.h>
+#include <stdlib.h>
+
+/* Rays taken at once; and disagreements that linear decides before the first structure's word
+ * stands in for it: with more of them the result is clear, and linear takes long. */
+enum { BLOCK = 64, MOST_DECIDED = 1000 };
+
+/* What one thread found out about one structure. */
+typedef struct tally {
+    uint64_t family_hits[ACCEL_FAMILIES], refused, mismatches, by_query[4], first;
+} tally;
+
+/* What the threads share. */
+typedef struct run {
+    accel_check *check;
+    atomic_uint_fast64_t next;    /* block to take */
+    atomic_uint_fast64_t decided; /* disagreements that linear decided */
+    atomic_bool failed;           /* no memory */
+    tally *tallies;               /* of every thread and structure */
+} run;
+
+static uint64_t rays_before(uint64_t count, uint64_t family)
+{
+    return (count + ACCEL_FAMILIES - 1 - family) / ACCEL_FAMILIES;
+}
+
+bool accel_check_judged(const accel_check *check, uint64_t index)
+{
+    const uint64_t family = index % ACCEL_FAMILIES, j = index / ACCEL_FAMILIES;
+    const uint64_t all = rays_before(check->ray_count, family);
+    const uint64_t some = rays_before(check->judged_count, family);
+    return (j + 1) * some / all > j * some / all;
+}
+
+accel_question accel_check_question(const accel_check *check, uint64_t index)
+{
+    accel_question question = {.ray = accel_rays_make(&check->rays, index)};
+    question.lists = index / ACCEL_FAMILIES % ACCEL_LISTS_EVERY == 0;
+    for (int k = 0; k < 3; k++) {
+        question.point[k] = question.ray.org[k];
+    }
+    accel_hit hit;
+    if (question.lists && accel_closest(check->suspects[0].structure, &question.ray, &hit, NULL)) {
+        for (int k = 0; k < 3; k++) {
+            question.point[k] += hit.t * question.ray.dir[k];
+        }
+    }
+    return question;
+}
+
+static void count(tally *t, uint64_t index, const accel_answers *got, unsigned differences)
+{
+    t->family_hits[index % ACCEL_FAMILIES] += got->found;
+    if (differences == 0) {
+        return;
+    }
+    t->mismatches++;
+    t->first = index < t->first ? index : t->first;
+    for (int i = 0; i < 4; i++) {
+        t->by_query[i] += differences >> i & 1;
+    }
+}
+
+static bool all_agree(const accel_check *check, const accel_question *question,
+                      const accel_answers *answers)
+{
+    /* the first structure's accel_any is compared with its own accel_closest */
+    for (size_t i = 0; i < check->suspect_count; i++) {
+        if (accel_differences(question, &answers[0], &answers[i]) != 0) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* `answers` has room for all structures and for the judge behind them. */
+static void check_ray(run *r, uint64_t index, tally *tallies, accel_answers *answers)
+{
+    const accel_check *check = r->check;
+    const accel_question question = accel_check_question(check, index);
+    for (size_t i = 0; i < check->suspect_count; i++) {
+        accel_query query = {0};
+        accel_ask(check->suspects[i].structure, &question, &query, &answers[i]);
+        tallies[i].refused += query.refused != 0;
+    }
+    const accel_answers *expected = &answers[0];
+    if (accel_check_judged(check, index) || (!all_agree(check, &question, answers) &&
+                                             atomic_fetch_add(&r->decided, 1) < MOST_DECIDED)) {
+        accel_answers *judged = &answers[check->suspect_count];
+        accel_ask_judge(check->judge, &question, NULL, judged);
+        expected = judged;
+    }
+    for (size_t i = 0; i < check->suspect_count; i++) {
+        count(&tallies[i], index, &answers[i], accel_differences(&question, expected, &answers[i]));
+    }
+}
+
+static void work(void *user, unsigned thread)
+{
+    run *r = user;
+    accel_check *check = r->check;
+    accel_answers *answers = malloc((check->suspect_count + 1) * sizeof *answers);
+    if (answers == NULL) {
+        atomic_store(&r->failed, true);
+        return;
+    }
+    tally *tallies = r->tallies + thread * check->suspect_count;
+    for (;;) {
+        const uint64_t from = atomic_fetch_add(&r->next, BLOCK);
+        if (from >= check->ray_count) {
+            break;
+        }
+        const uint64_t to = from + BLOCK < check->ray_count ? from + BLOCK : check->ray_count;
+        for (uint64_t i = from; i < to; i++) {
+            check_ray(r, i, tallies, answers);
+        }
+        if (thread == 0) {
+            accel_progress_show(&check->progress, "checking rays",
+                                (double)to / (double)check->ray_count);
+        }
+    }
+    free(answers);
+}
+
+static void add_tally(accel_suspect *suspect, const tally *t)
+{
+    for (int i = 0; i < ACCEL_FAMILIES; i++) {
+        suspect->family_hits[i] += t->family_hits[i];
+        suspect->hits += t->family_hits[i];
+    }
+    suspect->refused += t->refused;
+    suspect->mismatches += t->mismatches;
+    suspect->first = t->first < suspect->first ? t->first : suspect->first;
+    for (int i = 0; i < 4; i++) {
+        suspect->by_query[i] += t->by_query[i];
+    }
+}
+
+bool accel_check_run(accel_check *check)
+{
+    const size_t count = check->threads * check->suspect_count;
+    run r = {.check = check, .tallies = calloc(count, sizeof *r.tallies)};
+    if (r.tallies == NULL) {
+        return false;
+    }
+    for (size_t i = 0; i < count; i++) {
+        r.tallies[i].first = UINT64_MAX;
+    }
+    accel_crew(check->threads, work, &r);
+    accel_progress_clear(&check->progress);
+    for (size_t i = 0; i < count; i++) {
+        add_tally(&check->suspects[i % check->suspect_count], &r.tallies[i]);
+    }
+    free(r.tallies);
+    return !atomic_load(&r.failed);
+}

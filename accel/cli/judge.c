@@ -1,0 +1,89 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * Asking a structure and comparing answers.
+ */
+#include "judge.h"
+
+#include <string.h>
+
+bool accel_same_hit(const accel_hit *a, const accel_hit *b)
+{
+    return memcmp(&a->t, &b->t, sizeof a->t) == 0 && memcmp(&a->u, &b->u, sizeof a->u) == 0 &&
+           memcmp(&a->v, &b->v, sizeof a->v) == 0 && a->geom == b->geom && a->prim == b->prim;
+}
+
+static bool keep_hit(void *user, const accel_hit *hit)
+{
+    accel_answers *answers = user;
+    answers->all[answers->all_count++] = *hit;
+    return answers->all_count < ACCEL_KEPT;
+}
+
+static bool keep_id(void *user, accel_id id)
+{
+    accel_answers *answers = user;
+    answers->point[answers->point_count++] = id;
+    return answers->point_count < ACCEL_KEPT;
+}
+
+void accel_ask_judge(const accel *judge, const accel_question *question, accel_query *query,
+                     accel_answers *answers)
+{
+    const accel_hit nothing = {-1.0, -2.0, -3.0, 4, 5};
+    answers->closest = nothing;
+    answers->all_count = 0;
+    answers->point_count = 0;
+    answers->found = accel_closest(judge, &question->ray, &answers->closest, query);
+    answers->any = answers->found;
+    answers->untouched = answers->found || accel_same_hit(&answers->closest, &nothing);
+    if (question->lists) {
+        accel_all(judge, &question->ray, keep_hit, answers, query);
+        accel_point(judge, question->point, keep_id, answers, query);
+    }
+}
+
+void accel_ask(const accel *a, const accel_question *question, accel_query *query,
+               accel_answers *answers)
+{
+    accel_ask_judge(a, question, query, answers);
+    answers->any = accel_any(a, &question->ray, query);
+}
+
+static bool same_list(const accel_answers *expected, const accel_answers *got)
+{
+    bool same = expected->all_count == got->all_count;
+    for (uint32_t i = 0; same && i < expected->all_count; i++) {
+        same = accel_same_hit(&expected->all[i], &got->all[i]);
+    }
+    return same;
+}
+
+static bool same_ids(const accel_answers *expected, const accel_answers *got)
+{
+    bool same = expected->point_count == got->point_count;
+    for (uint32_t i = 0; same && i < expected->point_count; i++) {
+        same = expected->point[i].geom == got->point[i].geom &&
+               expected->point[i].prim == got->point[i].prim;
+    }
+    return same;
+}
+
+unsigned accel_differences(const accel_question *question, const accel_answers *expected,
+                           const accel_answers *got)
+{
+    unsigned differences = 0;
+    if (expected->found != got->found || !got->untouched ||
+        (got->found && !accel_same_hit(&expected->closest, &got->closest))) {
+        differences |= ACCEL_DIFFERS_CLOSEST;
+    }
+    if (expected->found != got->any) {
+        differences |= ACCEL_DIFFERS_ANY;
+    }
+    if (question->lists && !same_list(expected, got)) {
+        differences |= ACCEL_DIFFERS_ALL;
+    }
+    if (question->lists && !same_ids(expected, got)) {
+        differences |= ACCEL_DIFFERS_POINT;
+    }
+    return differences;
+}
