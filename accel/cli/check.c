@@ -40,29 +40,41 @@ typedef struct request {
     uint64_t rays, seed, threads, judged; /* 0 for the default of threads and judged */
 } request;
 
-/* Every kind but linear, in every form it has. The texts live as long as the process. */
+/* One config for each form of a kind; `texts` has room for ACCEL_MOST_CONFIGS of them. */
+static bool every_form(accel_configs *configs, const accel_kind_info *kind, char (*texts)[60],
+                       const accel_command *command)
+{
+    static const char *const one[] = {"", NULL};
+    const char *const *forms = one;
+    for (size_t k = 0; k < kind->option_count; k++) {
+        forms = strcmp(kind->options[k].key, "form") == 0 ? kind->options[k].words : forms;
+    }
+    bool fine = true;
+    for (; fine && *forms != NULL; forms++) {
+        char *text = texts[configs->count % ACCEL_MOST_CONFIGS];
+        snprintf(text, sizeof texts[0], "%s%s%s", kind->name,
+                 **forms == '\0' ? "" : ":form=", *forms);
+        fine = accel_configs_add(configs, text, command);
+    }
+    return fine;
+}
+
+/* Every kind but linear in every form it has; auto last, as it is one of the others. */
 static bool every_config(accel_configs *configs, const accel_command *command)
 {
     static char texts[ACCEL_MOST_CONFIGS][60];
     size_t count;
     const accel_kind_info *const *kinds = accel_kinds(&count);
+    const accel_kind_info *last = NULL;
     for (size_t i = 0; i < count; i++) {
-        static const char *const one[] = {"", NULL};
-        const char *const *forms = one;
-        for (size_t k = 0; k < kinds[i]->option_count; k++) {
-            forms =
-                strcmp(kinds[i]->options[k].key, "form") == 0 ? kinds[i]->options[k].words : forms;
-        }
-        for (; *forms != NULL && strcmp(kinds[i]->name, "linear") != 0; forms++) {
-            char *text = texts[configs->count % ACCEL_MOST_CONFIGS];
-            snprintf(text, sizeof texts[0], "%s%s%s", kinds[i]->name,
-                     **forms == '\0' ? "" : ":form=", *forms);
-            if (!accel_configs_add(configs, text, command)) {
-                return false;
-            }
+        if (strcmp(kinds[i]->name, "auto") == 0) {
+            last = kinds[i];
+        } else if (strcmp(kinds[i]->name, "linear") != 0 &&
+                   !every_form(configs, kinds[i], texts, command)) {
+            return false;
         }
     }
-    return true;
+    return last == NULL || every_form(configs, last, texts, command);
 }
 
 /* Has a structure with the same resolved config been built before? Is it the judge itself? */
@@ -87,7 +99,7 @@ static bool add_suspect(accel_check *check, const char *config, bool asked)
     *suspect = (accel_suspect){.structure = a, .first = UINT64_MAX};
     accel_describe(a, &suspect->info);
     if (!asked && is_known(check, &suspect->info)) {
-        printf("%s is the same as %s, which is checked anyway\n", config, suspect->info.config);
+        printf("%s means %s here, which is checked anyway\n", config, suspect->info.config);
         accel_free(a);
         return true;
     }
