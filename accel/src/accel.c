@@ -80,6 +80,9 @@ void build_note(struct build *build, const char *format, ...)
     va_start(arguments, format);
     vsnprintf(info->notes[info->note_count], sizeof info->notes[0], format, arguments);
     va_end(arguments);
+    for (uint32_t i = 0; i < info->note_count; i++)
+        if (strcmp(info->notes[i], info->notes[info->note_count]) == 0)
+            return;
     info->note_count++;
 }
 

@@ -79,7 +79,7 @@ bool build_tick(struct build *build, double done);
 /* Notes that memory ran out, which the failed allocation left in a->memory. Returns false. */
 bool build_no_memory(struct build *build);
 
-/* Adds a line to accel_info.notes: what was left out and why, or a limit that was met. */
+/* Adds a line to accel_info.notes: what was left out and why, or a limit that was met. Once. */
 __attribute__((format(printf, 2, 3))) void build_note(struct build *build, const char *format, ...);
 
 #endif

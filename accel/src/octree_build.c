@@ -16,8 +16,10 @@
 /* Cost of visiting a node; the cost of a test is primitives.test_cost of them. */
 #define NODE_COST 1.0
 
-/* References that a tree may have, in multiples of its primitives. */
-enum { BUDGET = 10 };
+/* References that a tree may have, in multiples of its primitives: where the builder chooses the
+ * depth, and where it is given. Boxes that overlap double their references with each level, so
+ * that without a bound a depth of 40 would never end. */
+enum { BUDGET = 10, GIVEN_BUDGET = 100 };
 
 /* Splits in a row that may fail to lower the predicted cost. */
 enum { LOOKAHEAD = 2 };
@@ -32,6 +34,7 @@ struct grower {
     uint8_t *children;     /* of the cell being split: which children each primitive meets */
     double done, from, to; /* volume finished, as a share of the root; progress range */
     uint32_t depth;        /* deepest leaf so far */
+    bool refused;          /* did a cell stay whole for want of budget? */
 };
 
 /* One cell to grow. */
@@ -140,10 +143,12 @@ static bool find_split(struct grower *g, struct task *t, struct split *s)
     if (isinf(s->plane[0]) && isinf(s->plane[1]) && isinf(s->plane[2]))
         return false;
     count_children(g, t, s);
+    if (s->sum > t->budget) {
+        g->refused = true;
+        return false;
+    }
     if (!isnan(g->rule.depth))
         return true;
-    if (s->sum > t->budget)
-        return false;
     t->failed = split_cost(g, t, s) < leaf_cost(g, t->count) ? 0 : t->failed + 1;
     return t->failed <= LOOKAHEAD;
 }
@@ -300,7 +305,8 @@ bool octree_build(struct build *build, struct octree_pool *pool, struct octree *
                        .rule = rule,
                        .from = from,
                        .to = to};
-    struct task root = {*box, 0, (uint32_t)count, 0, 0, BUDGET * (double)count};
+    const double budget = (isnan(rule.depth) ? BUDGET : GIVEN_BUDGET) * (double)count;
+    struct task root = {*box, 0, (uint32_t)count, 0, 0, budget};
     struct memory *m = &build->a->memory;
     double cost;
     const bool fine = prepare(&g, ids, count) && grow(&g, &root, &tree->root, &cost);
@@ -309,6 +315,11 @@ bool octree_build(struct build *build, struct octree_pool *pool, struct octree *
         memory_resize(m, g.children, count, 0);
     array_free(m, &g.stack);
     build->a->info.depth = g.depth > build->a->info.depth ? g.depth : build->a->info.depth;
+    if (g.refused && !isnan(rule.depth))
+        build_note(build,
+                   "cells above the given depth were left whole: %d references for each "
+                   "primitive were used up",
+                   GIVEN_BUDGET);
     return fine;
 }
 
