@@ -1,0 +1,178 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * Every kind, with its defaults and with each of its options, gives the answers of `linear`, bit
+ * for bit: nearest, any, all hits in order, boxes at a point. One argument names the test, such
+ * as G3 or R1.
+ */
+#include <stdlib.h>
+#include <string.h>
+
+#include "cmocka_all.h"
+#include "compare.h"
+
+/* One scene with one family of rays, and what linear says. */
+struct job {
+    const struct scene_maker *maker;
+    const struct ray_family *family;
+    uint64_t seed, count; /* of the scene; of rays */
+    struct test_scene scene;
+    accel_ray *rays;
+    struct answer *answers;
+};
+
+/* Structures that need more than this for a scene of a test have gone astray. */
+static const size_t most_bytes = (size_t)1 << 30;
+
+/* accel_all and accel_point are asked for every fourth ray. */
+static bool is_deep(uint64_t i)
+{
+    return i % 4 == 0;
+}
+
+static void prepare(struct job *j)
+{
+    scene_make(&j->scene, j->maker, j->seed);
+    j->rays = must_resize(NULL, j->count * sizeof *j->rays);
+    j->answers = must_resize(NULL, j->count * sizeof *j->answers);
+    accel *judge = must_build(&j->scene, "linear");
+    struct dice d = dice_from(j->seed, 2);
+    for (uint64_t i = 0; i < j->count; i++) {
+        j->rays[i] = j->family->make(&j->scene, judge, &d, i);
+        j->answers[i] = ask(judge, &j->rays[i], is_deep(i));
+        if (!same_answer(&j->answers[i], &j->answers[i])) {
+            report_failure(&(struct failure){j->maker->name, j->family->name, j->seed, i, "linear",
+                                             &j->rays[i], &j->answers[i], &j->answers[i]},
+                           &j->scene);
+            fail();
+        }
+    }
+    accel_free(judge);
+}
+
+static void finish(struct job *j)
+{
+    scene_free(&j->scene);
+    free(j->rays);
+    free(j->answers);
+}
+
+/* Raw hits before their box, of solvers that are wrong by more than their boxes are padded: the
+ * header exempts them. They must stay rare, or the test would test nothing. */
+static bool is_exempt(const struct job *j, uint64_t i)
+{
+    return j->answers[i].outside > 0;
+}
+
+static void check_exempt(const struct job *j)
+{
+    uint64_t exempt = 0;
+    for (uint64_t i = 0; i < j->count; i++)
+        exempt += is_exempt(j, i);
+    if (exempt * 100 > j->count)
+        fail_msg("%s, rays %s: %llu of %llu rays are exempt", j->maker->name, j->family->name,
+                 (unsigned long long)exempt, (unsigned long long)j->count);
+}
+
+/* Shoots the rays first, first + step, ... */
+static void shoot(const struct job *j, const accel *a, const char *config, uint64_t first,
+                  uint64_t step)
+{
+    uint32_t wrong = 0;
+    for (uint64_t i = first; i < j->count; i += step) {
+        const struct answer found = ask(a, &j->rays[i], is_deep(i));
+        if (is_exempt(j, i) || same_answer(&found, &j->answers[i]))
+            continue;
+        if (wrong++ == 0)
+            report_failure(&(struct failure){j->maker->name, j->family->name, j->seed, i, config,
+                                             &j->rays[i], &j->answers[i], &found},
+                           &j->scene);
+    }
+    if (wrong > 0)
+        fail_msg("%s on %s (seed %llu), rays %s: %u of %llu answers differ from linear", config,
+                 j->maker->name, (unsigned long long)j->seed, j->family->name, wrong,
+                 (unsigned long long)((j->count - first + step - 1) / step));
+}
+
+static void agree_one(const struct job *j, const struct tested *t, uint64_t first, uint64_t step)
+{
+    struct pool pool = {.most = most_bytes};
+    const accel_hooks hooks = {&pool, pool_resize, NULL};
+    accel *a;
+    accel_error error;
+    if (accel_build(&a, &j->scene.scene, t->config, &hooks, &error) != ACCEL_OK)
+        fail_msg("%s on %s (seed %llu): %s", t->config, j->maker->name, (unsigned long long)j->seed,
+                 error.text);
+    if (accel_validate(a, &error) != ACCEL_OK)
+        fail_msg("%s on %s (seed %llu): %s", t->config, j->maker->name, (unsigned long long)j->seed,
+                 error.text);
+    shoot(j, a, t->config, first, step);
+    accel_free(a);
+    assert_int_equal(pool.held, 0);
+    assert_int_equal(pool.blocks, 0);
+}
+
+/* Default configs see every ray, the others take turns: each sees a share of them. */
+static void agree(const struct scene_maker *maker, const struct ray_family *family, uint64_t seed,
+                  uint64_t count)
+{
+    enum { SHARE = 8 };
+    struct tested *list;
+    const size_t tested = tested_configs(&list);
+    struct job j = {.maker = maker, .family = family, .seed = seed, .count = count};
+    prepare(&j);
+    check_exempt(&j);
+    for (size_t i = 0; i < tested; i++) {
+        if (list[i].standard)
+            agree_one(&j, &list[i], 0, 1);
+        else if (!maker->variants || (i + seed) % SHARE == 0)
+            agree_one(&j, &list[i], count > SHARE ? i % SHARE : 0, count > SHARE ? SHARE : 1);
+    }
+    finish(&j);
+    free(list);
+}
+
+static void test_scene(void **state)
+{
+    const struct scene_maker *maker = *state;
+    const uint32_t variants = maker->variants ? maker->variants : 1;
+    for (uint32_t i = 0; i < variants; i++)
+        agree(maker, ray_families, test_seed() + i, scaled_count(maker->rays));
+}
+
+static void test_family(void **state)
+{
+    const struct ray_family *family = *state;
+    uint64_t scenes = 0;
+    while (family->scenes[scenes])
+        scenes++;
+    for (uint64_t i = 0; i < scenes; i++)
+        agree(scene_maker_find(family->scenes[i]), family, test_seed(),
+              scaled_count(family->rays / scenes));
+}
+
+static void add(struct CMUnitTest *list, size_t *count, const char *name, CMUnitTestFunction test,
+                const void *what)
+{
+    list[(*count)++] = (struct CMUnitTest){name, test, NULL, NULL, (void *)(uintptr_t)what};
+}
+
+int main(int argc, char **argv)
+{
+    static struct CMUnitTest list[100];
+    size_t count = 0;
+    if (argc != 2) {
+        fprintf(stderr, "usage: agree G1..G16|R1..R6|mix|NAME of a scene or a family of rays\n");
+        return 2;
+    }
+    for (const struct scene_maker *m = scene_makers; m->name; m++)
+        if (strcmp(argv[1], m->test) == 0 || strcmp(argv[1], m->name) == 0)
+            add(list, &count, m->name, test_scene, m);
+    for (const struct ray_family *f = ray_families + 1; f->name; f++)
+        if (strcmp(argv[1], f->test) == 0 || strcmp(argv[1], f->name) == 0)
+            add(list, &count, f->name, test_family, f);
+    if (count == 0) {
+        fprintf(stderr, "agree: no scene and no family of rays is called '%s'\n", argv[1]);
+        return 2;
+    }
+    return _cmocka_run_group_tests(argv[1], list, count, NULL, NULL);
+}

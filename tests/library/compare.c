@@ -1,0 +1,238 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "compare.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "cmocka_all.h"
+
+uint64_t hash_bytes(uint64_t hash, const void *bytes, size_t size)
+{
+    const unsigned char *at = bytes;
+    for (size_t i = 0; i < size; i++)
+        hash = (hash ^ at[i]) * 0x100000001b3u;
+    return hash;
+}
+
+static uint64_t hash_hit(uint64_t hash, const accel_hit *h)
+{
+    hash = hash_bytes(hash, &h->t, sizeof h->t);
+    hash = hash_bytes(hash, &h->u, sizeof h->u);
+    hash = hash_bytes(hash, &h->v, sizeof h->v);
+    hash = hash_bytes(hash, &h->geom, sizeof h->geom);
+    return hash_bytes(hash, &h->prim, sizeof h->prim);
+}
+
+uint64_t answer_hash(uint64_t hash, const struct answer *a)
+{
+    const unsigned char flags[2] = {a->hit, a->any};
+    hash = hash_bytes(hash, flags, sizeof flags);
+    if (a->hit)
+        hash = hash_hit(hash, &a->closest);
+    hash = hash_bytes(hash, &a->all, sizeof a->all);
+    return hash_bytes(hash, &a->ids, sizeof a->ids);
+}
+
+/* Gathers what is visited, and looks whether it may be. */
+struct gathering {
+    const accel_ray *ray;
+    struct answer *to;
+    bool first;
+    accel_id last; /* id of the last primitive visited */
+};
+
+static bool is_skipped(const accel_ray *ray, uint32_t geom, uint32_t prim)
+{
+    return ray->skip.geom == geom && ray->skip.prim == prim;
+}
+
+static bool gather_hit(void *user, const accel_hit *hit)
+{
+    struct gathering *g = user;
+    if (is_skipped(g->ray, hit->geom, hit->prim))
+        g->to->illegal = "accel_all: the skipped primitive";
+    g->to->all = hash_hit(g->to->all, hit);
+    return ++g->to->all_count < ALL_HITS;
+}
+
+static bool gather_id(void *user, accel_id id)
+{
+    struct gathering *g = user;
+    if (!g->first &&
+        (id.geom < g->last.geom || (id.geom == g->last.geom && id.prim <= g->last.prim)))
+        g->to->illegal = "accel_point: out of order";
+    g->first = false;
+    g->last = id;
+    g->to->ids = hash_bytes(g->to->ids, &id, sizeof id);
+    return ++g->to->id_count < ALL_HITS;
+}
+
+static void ask_closest(const accel *a, const accel_ray *ray, accel_query *q, struct answer *to)
+{
+    accel_hit untouched;
+    memset(&untouched, 0xa5, sizeof untouched);
+    to->closest = untouched;
+    to->hit = accel_closest(a, ray, &to->closest, q);
+    if (!to->hit && memcmp(&to->closest, &untouched, sizeof untouched) != 0)
+        to->illegal = "accel_closest: a miss wrote to *hit";
+    if (to->hit && is_skipped(ray, to->closest.geom, to->closest.prim))
+        to->illegal = "accel_closest: the skipped primitive";
+}
+
+struct answer ask(const accel *a, const accel_ray *ray, bool deep)
+{
+    struct answer to = {.all = HASH_START, .ids = HASH_START};
+    struct gathering g = {ray, &to, true, {0, 0}};
+    accel_query q = {.user = NULL};
+    ask_closest(a, ray, &q, &to);
+    to.any = accel_any(a, ray, &q);
+    if (to.any != to.hit)
+        to.illegal = "accel_any and accel_closest disagree";
+    if (deep) {
+        const bool ended = accel_all(a, ray, gather_hit, &g, &q);
+        if (ended != (to.all_count < ALL_HITS))
+            to.illegal = "accel_all: wrong return value";
+        if ((to.all_count > 0) != to.hit)
+            to.illegal = "accel_all and accel_closest disagree";
+        accel_point(a, ray->org, gather_id, &g, &q);
+    }
+    to.refused = q.refused;
+    to.outside = q.outside;
+    return to;
+}
+
+bool same_answer(const struct answer *a, const struct answer *b)
+{
+    return !a->illegal && !b->illegal && a->hit == b->hit && a->any == b->any && a->all == b->all &&
+           a->ids == b->ids && a->refused == b->refused &&
+           (!a->hit || (hash_hit(HASH_START, &a->closest) == hash_hit(HASH_START, &b->closest) &&
+                        memcmp(&a->closest.t, &b->closest.t, sizeof a->closest.t) == 0 &&
+                        a->closest.geom == b->closest.geom && a->closest.prim == b->closest.prim));
+}
+
+/* ---------------------------------------------------------------- configs ---- */
+
+static void add_config(struct tested **list, size_t *count, const char *kind, const char *key,
+                       const char *value)
+{
+    *list = must_resize(*list, (*count + 1) * sizeof **list);
+    struct tested *t = &(*list)[(*count)++];
+    t->standard = key == NULL;
+    if (key)
+        snprintf(t->config, sizeof t->config, "%s:%s=%s", kind, key, value);
+    else
+        snprintf(t->config, sizeof t->config, "%s", kind);
+}
+
+/* Both ends of the range, and two values between, evenly by ratio where the range is wide. */
+static double middle(const accel_option *o, double part)
+{
+    const double lo = o->min, hi = o->max;
+    const double x = lo >= 0 && hi > 100 * (lo + 1) ? pow(lo + 1, 1 - part) * pow(hi + 1, part) - 1
+                                                    : lo + part * (hi - lo);
+    return o->whole ? floor(x) : x;
+}
+
+static void add_numbers(struct tested **list, size_t *count, const char *kind,
+                        const accel_option *o)
+{
+    const double value[] = {o->min, middle(o, 0.15), middle(o, 0.3), middle(o, 0.6), o->max};
+    for (size_t i = 0; i < sizeof value / sizeof *value; i++) {
+        char text[40];
+        snprintf(text, sizeof text, "%.15g", value[i]);
+        if (i == 0 || value[i] > value[i - 1])
+            add_config(list, count, kind, o->key, text);
+    }
+}
+
+size_t tested_configs(struct tested **list)
+{
+    size_t kinds, count = 0;
+    const accel_kind_info *const *kind = accel_kinds(&kinds);
+    *list = NULL;
+    for (size_t i = 0; i < kinds; i++) {
+        add_config(list, &count, kind[i]->name, NULL, NULL);
+        for (size_t j = 0; j < kind[i]->option_count; j++) {
+            const accel_option *o = &kind[i]->options[j];
+            for (size_t w = 0; o->words && o->words[w]; w++)
+                add_config(list, &count, kind[i]->name, o->key, o->words[w]);
+            if (!o->words)
+                add_numbers(list, &count, kind[i]->name, o);
+        }
+    }
+    return count;
+}
+
+/* --------------------------------------------------------------- failures ---- */
+
+void print_answer(FILE *f, const char *who, const struct answer *a)
+{
+    fprintf(f, "  %-8s", who);
+    if (a->hit)
+        fprintf(f, " hit %u/%u t=%a u=%a v=%a", a->closest.geom, a->closest.prim, a->closest.t,
+                a->closest.u, a->closest.v);
+    else
+        fprintf(f, " miss");
+    fprintf(f, ", any %d, all %u (%016llx), ids %u (%016llx), refused %llu%s%s\n", a->any,
+            a->all_count, (unsigned long long)a->all, a->id_count, (unsigned long long)a->ids,
+            (unsigned long long)a->refused, a->illegal ? "; " : "", a->illegal ? a->illegal : "");
+}
+
+static void print_ray(FILE *f, const accel_ray *r)
+{
+    fprintf(f, "ray %a %a %a  %a %a %a  %a %a  %u %u\n", r->org[0], r->org[1], r->org[2], r->dir[0],
+            r->dir[1], r->dir[2], r->tmin, r->tmax, r->skip.geom, r->skip.prim);
+}
+
+void report_failure(const struct failure *f, const struct test_scene *s)
+{
+    char name[200];
+    snprintf(name, sizeof name, "failed-%s-%s-%llu.replay", f->scene, f->family,
+             (unsigned long long)f->index);
+    fprintf(stderr, "scene %s, seed %llu, rays %s, number %llu, config %s\n", f->scene,
+            (unsigned long long)f->seed, f->family, (unsigned long long)f->index, f->config);
+    print_ray(stderr, f->ray);
+    print_answer(stderr, "linear", f->expected);
+    print_answer(stderr, "found", f->found);
+    FILE *out = fopen(name, "w");
+    if (!out) {
+        perror(name);
+        return;
+    }
+    fprintf(out, "config %s\n", f->config);
+    print_ray(out, f->ray);
+    scene_write(out, s);
+    fclose(out);
+    fprintf(stderr, "  run again: replay %s\n", name);
+}
+
+accel *must_build(const struct test_scene *s, const char *config)
+{
+    accel *a;
+    accel_error error;
+    if (accel_build(&a, &s->scene, config, NULL, &error) != ACCEL_OK)
+        fail_msg("%s: %s", config, error.text);
+    return a;
+}
+
+uint64_t test_seed(void)
+{
+    const char *text = getenv("ACCEL_TEST_SEED");
+    return text ? strtoull(text, NULL, 10) : 20260101;
+}
+
+void *pool_resize(void *user, void *old, size_t from, size_t to)
+{
+    struct pool *p = user;
+    if (to > from && p->held - from + to > p->most)
+        return NULL;
+    void *block = to ? realloc(old, to) : NULL;
+    if (to && !block)
+        return NULL;
+    if (!to)
+        free(old);
+    p->blocks += (size_t)(!old && to) - (size_t)(old && !to);
+    p->held = p->held - from + to;
+    p->peak = p->held > p->peak ? p->held : p->peak;
+    return block;
+}

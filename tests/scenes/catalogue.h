@@ -1,0 +1,68 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * The scenes and rays behind the stiff and extreme cases: each generator once, for the tests and
+ * for reports. A scene belongs to a test "G1".."G16", a family of rays to "R1".."R6"; "mix" is the
+ * family that every scene is shot with: random, aimed at vertices and edges, axis-parallel with
+ * both zeros, grazing.
+ */
+#ifndef TESTS_CATALOGUE_H
+#define TESTS_CATALOGUE_H
+
+#include "dice.h"
+#include "scene.h"
+
+struct scene_maker {
+    const char *test;    /* "G1" */
+    const char *name;    /* unique, one word */
+    const char *meaning; /* one line */
+    void (*make)(struct test_scene *s, struct dice *d, double param);
+    double param;
+    uint32_t rays;     /* at intensity 1 */
+    uint32_t variants; /* that many scenes from as many seeds; 0 stands for 1 */
+};
+
+/* Ended by a NULL name. */
+extern const struct scene_maker scene_makers[];
+
+/* NULL if there is none of that name. */
+const struct scene_maker *scene_maker_find(const char *name);
+
+/* Makes a scene; ends with scene_free. */
+void scene_make(struct test_scene *s, const struct scene_maker *maker, uint64_t seed);
+
+struct ray_family {
+    const char *test;    /* "R1", or "mix" */
+    const char *name;    /* unique, one word */
+    const char *meaning; /* one line */
+    /* The i-th ray. `judge` is a linear structure over the scene. */
+    accel_ray (*make)(const struct test_scene *s, const accel *judge, struct dice *d, uint64_t i);
+    uint32_t rays;             /* at intensity 1, over all its scenes */
+    const char *const *scenes; /* the names of scenes that it is made for, NULL-ended */
+};
+
+extern const struct ray_family ray_families[];
+
+const struct ray_family *ray_family_find(const char *name);
+
+/* A factor for all counts: the environment's ACCEL_TEST_INTENSITY, 1 if it is not set. */
+double test_intensity(void);
+
+/* count * intensity, at least 1. */
+uint64_t scaled_count(uint64_t count);
+
+/* The generators, by file. */
+typedef void make_scene(struct test_scene *s, struct dice *d, double param);
+make_scene make_soup, make_log_sizes, make_scaled, make_shifted, make_slivers, make_stadium,
+    make_huge_and_tiny, make_mixed; /* soups.c */
+make_scene make_degenerate, make_coincident, make_nested, make_series, make_few, make_all_invalid,
+    make_empty; /* limits.c */
+make_scene make_lattice, make_ball_mesh, make_split_square, make_terrain, make_fan, make_stack,
+    make_twins, make_exotic; /* meshes.c */
+
+/* A closed mesh around the origin of radius about `radius`: 8 * 4^levels triangles. */
+void ball_mesh(struct part *p, const double centre[3], double radius, int levels);
+
+/* A triangle with a random corner in the unit cube and edges of about `edge`. */
+void random_triangle(struct part *p, struct dice *d, double edge);
+
+#endif

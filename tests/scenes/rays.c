@@ -1,0 +1,339 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * Families of rays: see catalogue.h.
+ */
+#include "catalogue.h"
+
+#include <float.h>
+#include <string.h>
+
+/* Where on a primitive to aim. */
+enum spot { VERTEX, EDGE, INSIDE };
+
+static double finite_or(double x, double other)
+{
+    return isfinite(x) ? x : other;
+}
+
+static void on_triangle(const double *t, struct dice *d, enum spot spot, double out[3])
+{
+    const uint32_t i = dice_below(d, 3), j = (i + 1) % 3, l = (i + 2) % 3;
+    const double u = spot == VERTEX        ? 0.0
+                     : dice_chance(d, 0.5) ? dice_unit(d)
+                                           : dice_below(d, 9) / 8.0;
+    const double v = spot == INSIDE ? (1.0 - u) * dice_unit(d) : 0.0;
+    for (uint32_t k = 0; k < 3; k++) {
+        const double a = t[3 * i + k], b = t[3 * j + k], c = t[3 * l + k];
+        out[k] = a + u * (b - a) + v * (c - a);
+    }
+}
+
+static void on_sphere(const double *sphere, struct dice *d, enum spot spot, double out[3])
+{
+    double x[3] = {0, 0, 0};
+    if (spot == VERTEX)
+        x[dice_below(d, 3)] = dice_chance(d, 0.5) ? 1 : -1;
+    else
+        for (int k = 0; k < 3; k++)
+            x[k] = dice_range(d, -1, 1);
+    const double length = spot == EDGE ? sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]) : 1.0;
+    for (int k = 0; k < 3; k++)
+        out[k] = sphere[k] + sphere[3] * (x[k] / length);
+}
+
+static void on_box(const accel_box *b, struct dice *d, enum spot spot, double out[3])
+{
+    for (int k = 0; k < 3; k++) {
+        const double lo = finite_or(b->lo[k], -1.0), hi = finite_or(b->hi[k], 1.0);
+        const bool end = spot == VERTEX || (spot == EDGE && dice_chance(d, 0.6));
+        out[k] = end ? (dice_chance(d, 0.5) ? lo : hi) : lo + dice_unit(d) * (hi - lo);
+    }
+}
+
+/* A random primitive. NULL if the scene has none. */
+static const struct part *pick(const struct test_scene *s, struct dice *d, uint32_t *index)
+{
+    const uint64_t size = scene_size(s);
+    if (size == 0)
+        return NULL;
+    uint32_t at = dice_below(d, (uint32_t)size);
+    const struct part *p = s->part;
+    while (at >= p->count)
+        at -= p++->count;
+    *index = at;
+    return p;
+}
+
+static void target(const struct test_scene *s, struct dice *d, enum spot spot, double out[3])
+{
+    uint32_t i;
+    const struct part *p = pick(s, d, &i);
+    if (!p)
+        on_box(&s->box, d, INSIDE, out);
+    else if (p->type == ACCEL_TRIANGLES)
+        on_triangle(p->data + 9 * (size_t)i, d, spot, out);
+    else if (p->type == ACCEL_SPHERES)
+        on_sphere(p->data + 4 * (size_t)i, d, spot, out);
+    else
+        on_box(&p->boxes[i], d, spot, out);
+    for (int k = 0; k < 3; k++)
+        out[k] = finite_or(out[k], s->box.lo[k]);
+}
+
+/* A point in the scene's box, or up to one and a half extents outside. */
+static void anywhere(const struct test_scene *s, struct dice *d, double out[3])
+{
+    const bool inside = dice_chance(d, 0.3);
+    for (int k = 0; k < 3; k++) {
+        const double lo = s->box.lo[k], size = s->box.hi[k] - lo;
+        out[k] = lo + size * (inside ? dice_unit(d) : dice_range(d, -1.5, 2.5));
+    }
+}
+
+static accel_ray towards(const double org[3], const double to[3])
+{
+    double dir[3];
+    for (int k = 0; k < 3; k++)
+        dir[k] = to[k] - org[k];
+    return accel_ray_from(org, dir);
+}
+
+static accel_ray aimed(const struct test_scene *s, struct dice *d, enum spot spot)
+{
+    double org[3], to[3];
+    anywhere(s, d, org);
+    target(s, d, spot, to);
+    accel_ray ray = towards(org, to);
+    if (dice_chance(d, 0.5)) {
+        const double largest = fmax(fabs(ray.dir[0]), fmax(fabs(ray.dir[1]), fabs(ray.dir[2])));
+        for (int k = 0; largest > 0 && k < 3; k++)
+            ray.dir[k] /= largest;
+    }
+    return ray;
+}
+
+static accel_ray random_ray(const struct test_scene *s, struct dice *d)
+{
+    double org[3], to[3];
+    anywhere(s, d, org);
+    on_box(&s->box, d, INSIDE, to);
+    return towards(org, to);
+}
+
+static double either_zero(struct dice *d)
+{
+    return dice_chance(d, 0.5) ? 0.0 : -0.0;
+}
+
+static accel_ray parallel_ray(const struct test_scene *s, struct dice *d)
+{
+    double org[3], dir[3];
+    target(s, d, VERTEX, org);
+    const uint32_t k = dice_below(d, 3);
+    const bool up = dice_chance(d, 0.5);
+    for (int i = 0; i < 3; i++)
+        dir[i] = either_zero(d);
+    dir[k] = up ? 1.0 : -1.0;
+    const double size = fmax(s->box.hi[k] - s->box.lo[k], DBL_MIN);
+    if (dice_chance(d, 0.8))
+        org[k] = up ? s->box.lo[k] - size : s->box.hi[k] + size;
+    return accel_ray_from(org, dir);
+}
+
+/* From far along a line that leaves a triangle's plane by 1e-2..1e-15. */
+static accel_ray grazing_ray(const struct test_scene *s, struct dice *d)
+{
+    double a[3], b[3], org[3];
+    uint32_t i;
+    const struct part *p = pick(s, d, &i);
+    if (!p || p->type != ACCEL_TRIANGLES)
+        return aimed(s, d, EDGE);
+    on_triangle(p->data + 9 * (size_t)i, d, INSIDE, a);
+    on_triangle(p->data + 9 * (size_t)i, d, EDGE, b);
+    const double off = dice_power(d, -50, -6), back = dice_range(d, 0.1, 20);
+    double size = 0.0;
+    for (int k = 0; k < 3; k++)
+        size = fmax(size, fabs(b[k] - a[k]));
+    for (int k = 0; k < 3; k++)
+        org[k] = finite_or(a[k] - back * (b[k] - a[k]) + size * off * dice_range(d, -1, 1), 0.0);
+    return towards(org, a);
+}
+
+static accel_ray mix_ray(const struct test_scene *s, const accel *judge, struct dice *d, uint64_t i)
+{
+    (void)judge;
+    switch (i % 6) {
+    case 0:
+        return random_ray(s, d);
+    case 1:
+        return aimed(s, d, VERTEX);
+    case 2:
+        return aimed(s, d, EDGE);
+    case 3:
+        return aimed(s, d, INSIDE);
+    case 4:
+        return parallel_ray(s, d);
+    default:
+        return grazing_ray(s, d);
+    }
+}
+
+/* ------------------------------------------------------------------ R1 .. R6 ---- */
+
+enum { SPECIALS = 17 };
+
+static double special(uint32_t i)
+{
+    static const double value[SPECIALS / 2] = {0.0, 0x1p-1074, DBL_MIN, 1e-300,
+                                               1.0, 1e300,     DBL_MAX, INFINITY};
+    return i == SPECIALS - 1 ? (double)NAN : i % 2 ? -value[i / 2] : value[i / 2];
+}
+
+/* Every direction of special components, one after the other; the rest is sampled. */
+static accel_ray special_ray(const struct test_scene *s, const accel *judge, struct dice *d,
+                             uint64_t i)
+{
+    (void)judge;
+    double org[3], dir[3];
+    uint64_t left = i;
+    target(s, d, (enum spot)dice_below(d, 3), org);
+    if (dice_chance(d, 0.5))
+        anywhere(s, d, org);
+    for (int k = 0; k < 3; k++) {
+        dir[k] = special((uint32_t)(left % SPECIALS));
+        left /= SPECIALS;
+        if (dice_chance(d, 0.1))
+            org[k] = special(dice_below(d, SPECIALS));
+    }
+    accel_ray ray = accel_ray_from(org, dir);
+    if (dice_chance(d, 0.2))
+        ray.tmin = special(dice_below(d, SPECIALS));
+    if (dice_chance(d, 0.2))
+        ray.tmax = special(dice_below(d, SPECIALS));
+    return ray;
+}
+
+/* From a vertex, an edge, a face or a box's corner, along an axis, an edge or anywhere. */
+static accel_ray origin_on(const struct test_scene *s, const accel *judge, struct dice *d,
+                           uint64_t i)
+{
+    (void)judge;
+    double org[3], to[3];
+    target(s, d, (enum spot)(i % 3), org);
+    target(s, d, (enum spot)dice_below(d, 3), to);
+    accel_ray ray = towards(org, to);
+    const uint32_t keep = dice_below(d, 6);
+    for (uint32_t k = 0; keep < 3 && k < 3; k++)
+        ray.dir[k] = k == keep ? (dice_chance(d, 0.5) ? 1.0 : -1.0) : either_zero(d);
+    if (dice_chance(d, 0.3))
+        ray.tmin = -(double)INFINITY;
+    return ray;
+}
+
+/* Through points and half points of the integer lattice, in the 26 directions, both zeros. */
+static accel_ray lattice_ray(const struct test_scene *s, const accel *judge, struct dice *d,
+                             uint64_t i)
+{
+    (void)judge;
+    double org[3], dir[3];
+    const uint64_t code = i % 27 == 13 ? 0 : i % 27;
+    const uint32_t digit[3] = {(uint32_t)code % 3, (uint32_t)code / 3 % 3, (uint32_t)code / 9};
+    for (int k = 0; k < 3; k++) {
+        const uint32_t cells = (uint32_t)(s->box.hi[k] - s->box.lo[k]) + 5;
+        org[k] = s->box.lo[k] - 2 + dice_below(d, 2 * cells) / 2.0;
+        dir[k] = digit[k] == 1 ? either_zero(d) : (double)digit[k] - 1.0;
+    }
+    for (int k = 0; dice_chance(d, 0.3) && k < 3; k++)
+        dir[k] *= 1 + dice_below(d, 7);
+    return accel_ray_from(org, dir);
+}
+
+/* Ends its interval at the first hit's t, or one step before or behind. */
+static accel_ray ending_ray(const struct test_scene *s, const accel *judge, struct dice *d,
+                            uint64_t i)
+{
+    const double inf = (double)INFINITY;
+    accel_ray ray = mix_ray(s, judge, d, i);
+    accel_hit hit;
+    if (!accel_closest(judge, &ray, &hit, NULL))
+        return ray;
+    const double end[3] = {hit.t, nextafter(hit.t, -inf), nextafter(hit.t, inf)};
+    const uint32_t which = dice_below(d, 6);
+    *(which < 3 ? &ray.tmin : &ray.tmax) = end[which % 3];
+    return ray;
+}
+
+static accel_ray unnormalised_ray(const struct test_scene *s, const accel *judge, struct dice *d,
+                                  uint64_t i)
+{
+    accel_ray ray = mix_ray(s, judge, d, i);
+    const int power = dice_chance(d, 0.5) ? 500 : -500;
+    for (int k = 0; k < 3; k++)
+        ray.dir[k] = ldexp(ray.dir[k], power);
+    return ray;
+}
+
+/* Leaves the primitive that it was reflected or refracted at. */
+static accel_ray secondary_ray(const struct test_scene *s, const accel *judge, struct dice *d,
+                               uint64_t i)
+{
+    struct dice base = dice_from(d->seed, i / 1000);
+    const accel_ray first = mix_ray(s, judge, &base, i / 1000);
+    accel_hit hit;
+    if (!accel_closest(judge, &first, &hit, NULL))
+        return first;
+    double org[3], dir[3];
+    for (int k = 0; k < 3; k++) {
+        org[k] = first.org[k] + hit.t * first.dir[k];
+        dir[k] = dice_range(d, -1, 1);
+    }
+    accel_ray ray = accel_ray_from(org, dir);
+    ray.skip = (accel_id){hit.geom, hit.prim};
+    return ray;
+}
+
+/* From 1e3 to 1e14 extents away. */
+static accel_ray far_ray(const struct test_scene *s, const accel *judge, struct dice *d, uint64_t i)
+{
+    (void)judge;
+    double org[3], to[3];
+    target(s, d, (enum spot)(i % 3), to);
+    const double distance = dice_power(d, 10, 47);
+    for (int k = 0; k < 3; k++)
+        org[k] = to[k] + distance * (s->box.hi[k] - s->box.lo[k]) * dice_range(d, -1, 1);
+    return towards(org, to);
+}
+
+static const char *const for_special[] = {"scale-1", "mixed", "lattice", "nested-spheres", NULL};
+static const char *const for_origins[] = {"lattice", "ball-mesh", "stack", "mixed", NULL};
+static const char *const for_lattice[] = {"lattice", "stack", NULL};
+static const char *const for_ends[] = {"soup", "mixed", "twins", "lattice", "exotic", NULL};
+static const char *const for_lengths[] = {"soup", "mixed", "sizes", NULL};
+static const char *const for_secondary[] = {"ball-mesh", "mixed", "slivers", NULL};
+static const char *const for_exotic[] = {"exotic", "mixed", "huge-and-tiny", NULL};
+static const char *const for_far[] = {"scale-1", "shift-1e6", "mixed-key", NULL};
+static const char *const for_all[] = {NULL};
+
+const struct ray_family ray_families[] = {
+    {"mix", "mix", "random, at vertices and edges, axis-parallel, grazing", mix_ray, 0, for_all},
+    {"R1", "special", "zeros, subnormal, huge, infinite and NaN components", special_ray, 100000,
+     for_special},
+    {"R2", "origin-on", "origins on vertices, edges and faces", origin_on, 20000, for_origins},
+    {"R2", "lattice-lines", "along lattice lines, 26 directions, both zeros", lattice_ray, 20000,
+     for_lattice},
+    {"R3", "ends", "interval ends at a hit's t and its neighbours", ending_ray, 20000, for_ends},
+    {"R4", "lengths", "directions of length 2^-500 and 2^500", unnormalised_ray, 5000, for_lengths},
+    {"R5", "secondary", "1,000 rays leave each hit, skipping its primitive", secondary_ray, 100000,
+     for_secondary},
+    {"R6", "exotic-mix", "the mix, at objects that report oddly", mix_ray, 5000, for_exotic},
+    {"G4", "far", "origins 1e3..1e14 extents away", far_ray, 6000, for_far},
+    {NULL, NULL, NULL, NULL, 0, NULL},
+};
+
+const struct ray_family *ray_family_find(const char *name)
+{
+    for (const struct ray_family *f = ray_families; f->name; f++)
+        if (strcmp(f->name, name) == 0)
+            return f;
+    return NULL;
+}
