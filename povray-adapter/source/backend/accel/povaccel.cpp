@@ -1,0 +1,574 @@
+/*******************************************************************************
+ * povaccel.cpp
+ *
+ * SPDX-License-Identifier: AGPL-3.0-or-later
+ *
+ * This module implements Bounding_Method=3, which answers POV-Ray's ray queries
+ * through the accel library. It is a derivative work of POV-Ray 3.7.0.10; see
+ * LICENSE.
+ *
+ * The answers are those of POV-Ray's linear search (-MB), bit for bit: the leaf
+ * test of an object is POV-Ray's own and does not depend on the other objects,
+ * the library offers each object whose box the ray meets, and orders what they
+ * report by (depth, place in the scene). What this rests on: the box that
+ * Padded_Box returns for an object holds all points where its leaf test may
+ * report a hit.
+ *******************************************************************************/
+
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <typeinfo>
+
+#include <boost/core/demangle.hpp>
+#include <boost/format.hpp>
+#include <boost/thread.hpp>
+
+// frame.h must always be the first POV file included (pulls in platform config)
+#include "backend/frame.h"
+
+#include "base/povmsgid.h"
+#include "base/timer.h"
+
+#include "backend/accel/povaccel.h"
+#include "backend/control/messagefactory.h"
+#include "backend/control/renderbackend.h"
+#include "backend/render/trace.h"
+#include "backend/scene/objects.h"
+#include "backend/scene/scene.h"
+#include "backend/shape/csg.h"
+#include "backend/shape/planes.h"
+#include "backend/shape/poly.h"
+#include "backend/shape/sphsweep.h"
+#include "backend/support/task.h"
+
+// this must be the last file included
+#include "base/povdebug.h"
+
+namespace pov
+{
+
+using boost::format;
+
+/// One ray query: what the leaf tests need, and the best hit so far.
+struct AccelQuery
+{
+	const vector<ObjectPtr>& objects;
+	const Ray& ray;
+	const RayObjectCondition *precondition;
+	const RayObjectCondition *postcondition;
+	TraceThreadData *thread;
+	Intersection& best;
+	Intersection candidate;
+	BBOX_VECT origin;
+	BBOX_VECT invdir;
+	ObjectBase::BBoxDirection variant;
+	POV_ULONG leafTests;
+	POV_ULONG leafHits;
+
+	AccelQuery(const vector<ObjectPtr>& objs, const Ray& r, const RayObjectCondition *prec, const RayObjectCondition *postc,
+	           TraceThreadData *t, Intersection& bi) :
+		objects(objs), ray(r), precondition(prec), postcondition(postc), thread(t), best(bi), leafTests(0), leafHits(0)
+	{
+		// as BSPIntersectFunctor does
+		Vector3d tmp(1.0 / ray.GetDirection()[X], 1.0 / ray.GetDirection()[Y], 1.0 / ray.GetDirection()[Z]);
+		Assign_Vector(origin, ray.Origin);
+		Assign_Vector(invdir, *tmp);
+		variant = (ObjectBase::BBoxDirection)((int(invdir[X] < 0.0) << 2) | (int(invdir[Y] < 0.0) << 1) | int(invdir[Z] < 0.0));
+	}
+
+	bool MayHit(ObjectPtr object) const
+	{
+		return (precondition == NULL) || (*precondition)(ray, object, 0.0);
+	}
+
+	bool TestLeaf(ObjectPtr object)
+	{
+		if(postcondition != NULL)
+			return Find_Intersection(&candidate, object, ray, variant, origin, invdir, *postcondition, thread);
+		else
+			return Find_Intersection(&candidate, object, ray, variant, origin, invdir, thread);
+	}
+};
+
+static boost::mutex differenceMutex;
+static POV_ULONG differenceCount = 0;
+static const POV_ULONG differencesPrinted = 10;
+
+
+
+/*****************************************************************************
+ *
+ * Boxes
+ *
+ *****************************************************************************/
+
+static bool Has_Inverted_Clip(const ObjectBase *object)
+{
+	for(vector<ObjectPtr>::const_iterator clip = object->Clip.begin(); clip != object->Clip.end(); clip++)
+	{
+		if(Test_Flag(*clip, INVERTED_FLAG))
+			return true;
+	}
+
+	return false;
+}
+
+/*
+ * Is the BBox of an object known to hold all its hits? It is not
+ * - with a bounded_by: the box may be that of the bounding object, which only
+ *   has to be hit by the ray, while the surface may be anywhere along it;
+ * - for a plane or poly whose clipping object is inverted: it takes the box of
+ *   its first clipping object, inverted or not;
+ * - for a sphere_sweep: the box is that of the modelling spheres, which a
+ *   spline may leave;
+ * - for an inverted CSG object: inverting turns its operation around, but
+ *   leaves the box alone.
+ */
+static bool Box_Holds_All_Hits(const ObjectBase *object)
+{
+	if(object->Bound.empty() == false)
+		return false;
+	if((dynamic_cast<const Plane *>(object) != NULL) || (dynamic_cast<const Poly *>(object) != NULL))
+		return (Has_Inverted_Clip(object) == false);
+	if(dynamic_cast<const SphereSweep *>(object) != NULL)
+		return false;
+
+	const CompoundObject *compound = dynamic_cast<const CompoundObject *>(object);
+
+	if(compound == NULL)
+		return true;
+	if(Test_Flag(object, INVERTED_FLAG))
+		return false;
+	for(vector<ObjectPtr>::const_iterator child = compound->children.begin(); child != compound->children.end(); child++)
+	{
+		if(Box_Holds_All_Hits(*child) == false)
+			return false;
+	}
+
+	return true;
+}
+
+/*
+ * The box of an object for the library, with infinite sides if it is not known.
+ *
+ * The padding covers (a) the rounding of the box to float: at most 2^-24 of the
+ * largest coordinate for the corner, and 2^-23 for the length, which may be
+ * twice that coordinate; (b) the error of the solvers, for which 1e-4 of the
+ * object's size is an allowance, not a bound: it is far more than any solver
+ * was seen to need, and enlarges the area of a box by 0.04 % only. Hits before
+ * their box are counted and reported.
+ */
+static accel_box Padded_Box(const ObjectBase *object)
+{
+	const LightSource *light = dynamic_cast<const LightSource *>(object);
+	accel_box box;
+
+	// the hits of a light source are those of its looks_like object
+	if(light != NULL)
+		object = light->children[0];
+
+	bool known = !Test_Flag(object, INFINITE_FLAG) && Box_Holds_All_Hits(object);
+	DBL extent = 0.0;
+	DBL coordinate = 0.0;
+
+	for(int axis = X; axis <= Z; axis++)
+	{
+		box.lo[axis] = object->BBox.Lower_Left[axis];
+		box.hi[axis] = (DBL)object->BBox.Lower_Left[axis] + (DBL)object->BBox.Lengths[axis];
+		extent = max(extent, box.hi[axis] - box.lo[axis]);
+		coordinate = max(coordinate, max(fabs(box.lo[axis]), fabs(box.hi[axis])));
+		known = known && (box.lo[axis] <= box.hi[axis]);
+	}
+
+	const DBL padding = 1.0e-4 * extent + ldexp(coordinate, -22);
+
+	for(int axis = X; axis <= Z; axis++)
+	{
+		box.lo[axis] = known ? box.lo[axis] - padding : -HUGE_VAL;
+		box.hi[axis] = known ? box.hi[axis] + padding : HUGE_VAL;
+	}
+
+	return box;
+}
+
+static bool Never_Hit(const ObjectBase *object)
+{
+	const LightSource *light = dynamic_cast<const LightSource *>(object);
+
+	return (light != NULL) && light->children.empty();
+}
+
+
+
+/*****************************************************************************
+ *
+ * Options and build
+ *
+ *****************************************************************************/
+
+Accelerator::Accelerator(POVMS_Object& options) :
+	chosen(options.TryGetInt(kPOVAttrib_BoundingMethod, 1) == 3),
+	mentioned(options.Exist(kPOVAttrib_Accelerator) || options.Exist(kPOVAttrib_AcceleratorVerify)),
+	verify(options.TryGetBool(kPOVAttrib_AcceleratorVerify, false)),
+	lightsLeftOut(0),
+	structure(NULL),
+	sceneData(NULL)
+{
+	const char *environment = getenv("POV_ACCELERATOR");
+
+	config = options.TryGetString(kPOVAttrib_Accelerator, (environment != NULL) ? environment : "");
+}
+
+Accelerator::~Accelerator()
+{
+	accel_free(structure);
+}
+
+static MessageFactory Messages(const SceneData& scene)
+{
+	return MessageFactory(scene.warningLevel, OFFICIAL_VERSION_NUMBER, "Accelerator", scene.backendAddress, scene.frontendAddress, scene.sceneId, 0);
+}
+
+static void Throw_Library_Error(const accel_error& error)
+{
+	std::string text = std::string("Accelerator: ") + error.text;
+
+	// a comma separates the values of an option in an INI file, so only the last part of an unquoted value arrives
+	if((error.status == ACCEL_BAD_CONFIG) && (strchr(error.text, '=') != NULL))
+		text += " (in an INI file, put the value of Accelerator in quotes)";
+
+	throw POV_EXCEPTION(kParamErr, text.c_str());
+}
+
+void Accelerator::CheckOptions(const SceneData& scene) const
+{
+	if(mentioned && (scene.boundingMethod != 3))
+		Messages(scene).Warning(1, "Accelerator and Accelerator_Verify have no effect without %s.",
+		                        chosen ? "bounding (Bounding=On, +MB)" : "Bounding_Method=3 (+BM3)");
+
+	if(chosen == false)
+		return;
+
+	// fail on a bad configuration even if the scene is too small to be bounded
+	accel_scene nothing = { NULL, 0 };
+	accel_error error;
+	accel *empty;
+
+	if(accel_build(&empty, &nothing, config.c_str(), NULL, &error) != ACCEL_OK)
+		Throw_Library_Error(error);
+	accel_free(empty);
+}
+
+/// Lets the user watch, pause and stop a build.
+class AccelProgress
+{
+	public:
+		explicit AccelProgress(const SceneData& sd) : scene(sd), lastProgressTime(0) { }
+
+		/// The library calls this; exceptions must not pass through it.
+		static bool Report(void *user, const char *phase, double done)
+		{
+			AccelProgress& self = *reinterpret_cast<AccelProgress *>(user);
+
+			try
+			{
+				self.Send(phase, done);
+				Task::CurrentTaskCooperate();
+			}
+			catch(...)
+			{
+				self.stopped = std::current_exception();
+				return false;
+			}
+
+			return true;
+		}
+
+		void RethrowIfStopped() const
+		{
+			if(stopped)
+				std::rethrow_exception(stopped);
+		}
+	private:
+		const SceneData& scene;
+		Timer timer;
+		POV_LONG lastProgressTime;
+		std::exception_ptr stopped;
+
+		void Send(const char *phase, double done)
+		{
+			if((timer.ElapsedRealTime() - lastProgressTime) <= 1000) // update progress at most every second
+				return;
+			lastProgressTime = timer.ElapsedRealTime();
+
+			POVMS_Object obj(kPOVObjectClass_BoundingProgress);
+			obj.SetLong(kPOVAttrib_RealTime, lastProgressTime);
+			obj.SetLong(kPOVAttrib_CurrentNodeCount, 0);
+			obj.SetString(kPOVAttrib_AcceleratorText, str(format("Building accelerator: %s %d%%") % phase % int(100.0 * done)).c_str());
+			RenderBackend::SendSceneOutput(scene.sceneId, scene.frontendAddress, kPOVMsgIdent_Progress, obj);
+		}
+};
+
+/// The library asks back for the hits of one object.
+static void Test_Object(accel_probe *probe)
+{
+	AccelQuery& query = *reinterpret_cast<AccelQuery *>(probe->query->user);
+	ObjectPtr object = query.objects[probe->prim];
+
+	if(query.MayHit(object) == false)
+		return;
+
+	query.leafTests++;
+	if(query.TestLeaf(object) == true)
+	{
+		query.leafHits++;
+		if(accel_report(probe, query.candidate.Depth, 0.0, 0.0))
+			query.best = query.candidate;
+	}
+}
+
+void Accelerator::Build(const SceneData& scene)
+{
+	vector<accel_box> boxes;
+
+	for(vector<ObjectPtr>::const_iterator i = scene.objects.begin(); i != scene.objects.end(); i++)
+	{
+		if(Never_Hit(*i) == false)
+		{
+			objects.push_back(*i);
+			boxes.push_back(Padded_Box(*i));
+		}
+	}
+	lightsLeftOut = scene.objects.size() - objects.size();
+	sceneData = &scene;
+
+	accel_geometry geometry;
+	geometry.type = ACCEL_OBJECTS;
+	geometry.objects.boxes = boxes.data();
+	geometry.objects.count = boxes.size();
+	geometry.objects.order = ACCEL_ORDER_RAW; // POV-Ray's own depths decide
+	geometry.objects.intersect = Test_Object;
+	geometry.objects.user = NULL;
+
+	AccelProgress progress(scene);
+	const accel_scene library_scene = { &geometry, 1 };
+	const accel_hooks hooks = { &progress, NULL, &AccelProgress::Report };
+	accel_error error;
+	accel_status status = accel_build(&structure, &library_scene, config.c_str(), &hooks, &error);
+
+	progress.RethrowIfStopped();
+	if(status != ACCEL_OK)
+		Throw_Library_Error(error);
+}
+
+
+
+/*****************************************************************************
+ *
+ * Queries
+ *
+ *****************************************************************************/
+
+bool Accelerator::FindIntersection(Trace& trace, TraceThreadData *thread, Intersection& bestisect, const Ray& ray) const
+{
+	AccelQuery query(objects, ray, NULL, NULL, thread, bestisect);
+
+	return Find(trace, query);
+}
+
+bool Accelerator::FindIntersection(Trace& trace, TraceThreadData *thread, Intersection& bestisect, const Ray& ray,
+                                   const RayObjectCondition& precondition, const RayObjectCondition& postcondition) const
+{
+	AccelQuery query(objects, ray, &precondition, &postcondition, thread, bestisect);
+
+	return Find(trace, query);
+}
+
+/// POV-Ray's linear search, as in Trace::FindIntersection. Improves best and index.
+static bool Search_Linearly(Trace& trace, const AccelQuery& query, Intersection& best, uint32_t& index)
+{
+	bool found = false;
+
+	for(size_t i = 0; i < query.objects.size(); i++)
+	{
+		if(query.MayHit(query.objects[i]) == true)
+		{
+			Intersection isect;
+			bool hit;
+
+			if(query.postcondition != NULL)
+				hit = trace.FindIntersection(query.objects[i], isect, query.ray, *query.postcondition);
+			else
+				hit = trace.FindIntersection(query.objects[i], isect, query.ray);
+
+			if(hit && (isect.Depth < best.Depth))
+			{
+				best = isect;
+				index = i;
+				found = true;
+			}
+		}
+	}
+
+	return found;
+}
+
+bool Accelerator::Find(Trace& trace, AccelQuery& query) const
+{
+	const DBL limit = query.best.Depth;
+	accel_query counters = { &query, 0, 0, 0, 0 };
+	accel_hit hit;
+	accel_ray ray;
+
+	hit.prim = ACCEL_NONE;
+	Assign_Vector(ray.org, query.ray.Origin);
+	Assign_Vector(ray.dir, query.ray.Direction);
+	// The leaf test of a subsurface ray has no lower limit for the depth; all others report at least MIN_ISECT_DEPTH.
+	ray.tmin = query.ray.IsSubsurfaceRay() ? -HUGE_VAL : 0.0;
+	ray.tmax = limit;
+	ray.skip.geom = ray.skip.prim = ACCEL_NONE;
+
+	bool found = accel_closest(structure, &ray, &hit, &counters);
+	RenderStatistics& stats = query.thread->Stats();
+
+	// The library refuses a ray that is not finite, but POV-Ray's leaf tests may still answer it.
+	if(counters.refused > 0)
+		found = Search_Linearly(trace, query, query.best, hit.prim);
+
+	stats[Accel_Queries]++;
+	if(found)
+		stats[Accel_Queries_Succeeded]++;
+	stats[Accel_Nodes] += counters.nodes;
+	stats[Accel_Box_Tests] += counters.tests;
+	stats[Accel_Leaf_Tests] += query.leafTests;
+	stats[Accel_Leaf_Tests_Succeeded] += query.leafHits;
+	stats[Accel_Hits_Outside] += counters.outside;
+	stats[Accel_Rays_Refused] += counters.refused;
+
+	if(verify)
+		Verify(trace, query, limit, found, hit.prim);
+
+	return found;
+}
+
+
+
+/*****************************************************************************
+ *
+ * Accelerator_Verify
+ *
+ *****************************************************************************/
+
+void Accelerator::Verify(Trace& trace, const AccelQuery& query, DBL limit, bool found, uint32_t index) const
+{
+	Intersection linear;
+	uint32_t linearIndex = ACCEL_NONE;
+
+	linear.Depth = limit;
+	bool linearFound = Search_Linearly(trace, query, linear, linearIndex);
+
+	query.thread->Stats()[Accel_Queries_Verified]++;
+	if((found == linearFound) &&
+	   (!found || ((query.best.Object == linear.Object) && (memcmp(&query.best.Depth, &linear.Depth, sizeof(DBL)) == 0))))
+		return;
+
+	query.thread->Stats()[Accel_Queries_Different]++;
+	ReportDifference(query, limit, Describe(found, index, query.best), Describe(linearFound, linearIndex, linear));
+}
+
+std::string Accelerator::Describe(bool found, uint32_t index, const Intersection& isect) const
+{
+	if(found == false)
+		return "nothing";
+
+	char depth[80];
+
+	sprintf(depth, "depth %.17g (%a)", isect.Depth, isect.Depth);
+	return str(format("object %u (%s) at %s") % index % boost::core::demangle(typeid(*objects[index]).name()) % depth);
+}
+
+void Accelerator::ReportDifference(const AccelQuery& query, DBL limit, const std::string& ours, const std::string& linear) const
+{
+	{
+		boost::mutex::scoped_lock lock(differenceMutex);
+
+		if(++differenceCount > differencesPrinted)
+			return;
+	}
+
+	const VECTOR& o = query.ray.Origin;
+	const VECTOR& d = query.ray.Direction;
+
+	Messages(*sceneData).PossibleError("ray from <%.17g, %.17g, %.17g> along <%.17g, %.17g, %.17g> up to %.17g (%a %a %a, %a %a %a, %a): "
+	                                   "the accelerator finds %s, the linear search %s.",
+	                                   o[X], o[Y], o[Z], d[X], d[Y], d[Z], limit, o[X], o[Y], o[Z], d[X], d[Y], d[Z], limit,
+	                                   ours.c_str(), linear.c_str());
+}
+
+bool Accelerator::DifferenceWasFound()
+{
+	boost::mutex::scoped_lock lock(differenceMutex);
+
+	return (differenceCount > 0);
+}
+
+
+
+/*****************************************************************************
+ *
+ * Statistics
+ *
+ *****************************************************************************/
+
+static std::string Describe_Structure(const accel_info& info, size_t lightsLeftOut)
+{
+	std::string text = str(format("Accelerator:      %s\n") % info.config);
+
+	text += str(format("  Objects:        %10d   Unbounded:       %10d   Lights left out: %d\n") % info.primitives % info.unbounded % lightsLeftOut);
+	if(info.clusters > 0)
+		text += str(format("  Clusters:       %10d   Size classes:    %10d\n") % info.clusters % info.size_classes);
+	text += str(format("  Nodes:          %10d   Leaves:          %10d   Maximum depth: %d\n") % info.nodes % info.leaves % info.depth);
+	text += str(format("  References:     %10d   Memory:       %9d KiB   Peak: %d KiB\n") % info.references % ((info.bytes + 1023) / 1024) % ((info.peak_bytes + 1023) / 1024));
+	text += str(format("  Build time:     %10.3f s") % info.seconds);
+	for(uint32_t i = 0; i < info.phase_count; i++)
+		text += str(format("%s %s %.3f") % ((i == 0) ? " =" : " +") % info.phases[i].name % info.phases[i].seconds);
+	text += "\n";
+	for(uint32_t i = 0; i < info.note_count; i++)
+		text += str(format("  Note: %s\n") % info.notes[i]);
+
+	return text;
+}
+
+void Accelerator::GetStatistics(POVMS_Object& parserStats) const
+{
+	if(structure != NULL)
+	{
+		accel_info info;
+
+		accel_describe(structure, &info);
+		parserStats.SetString(kPOVAttrib_AcceleratorText, Describe_Structure(info, lightsLeftOut).c_str());
+	}
+	else if(chosen)
+		parserStats.SetString(kPOVAttrib_AcceleratorText, "Accelerator:      none, linear search (bounding is off, or there are few objects)\n");
+}
+
+void Accelerator::GetStatistics(POVMS_Object& renderStats, const RenderStatistics& stats)
+{
+	const POV_ULONG outside = stats[Accel_Hits_Outside];
+	const POV_ULONG refused = stats[Accel_Rays_Refused];
+	const POV_ULONG verified = stats[Accel_Queries_Verified];
+	const POV_ULONG different = stats[Accel_Queries_Different];
+	std::string text;
+
+	if(verified > 0)
+		text += str(format("Accelerator verified: %13d   Differences:     %15d\n") % verified % different);
+	if(refused > 0)
+		text += str(format("Accelerator refused:  %13d   (rays that are not finite; searched linearly)\n") % refused);
+	if(outside > 0)
+		text += str(format("Accelerator hits outside their box: %d (exact only as far as the padding reaches)\n") % outside);
+	if(text.empty() == false)
+		renderStats.SetString(kPOVAttrib_AcceleratorText, text.c_str());
+}
+
+}

@@ -1,0 +1,93 @@
+/*******************************************************************************
+ * povaccel.h
+ *
+ * SPDX-License-Identifier: AGPL-3.0-or-later
+ *
+ * This module contains all defines, typedefs, and prototypes for povaccel.cpp:
+ * Bounding_Method=3, which answers POV-Ray's ray queries through the accel
+ * library. It is a derivative work of POV-Ray 3.7.0.10; see LICENSE.
+ *
+ * One object of class Accelerator belongs to each scene. It is made with the
+ * scene's options, built once by the bounding task, and only read after that,
+ * so that all render threads share it. All state of a query is on the stack of
+ * the thread that runs it.
+ *******************************************************************************/
+
+#ifndef POVRAY_BACKEND_POVACCEL_H
+#define POVRAY_BACKEND_POVACCEL_H
+
+#include <string>
+#include <vector>
+
+#include "base/povmscpp.h"
+#include "backend/frame.h"
+#include "backend/support/statistics.h"
+#include "backend/accel/accel.h"
+
+namespace pov
+{
+
+class SceneData;
+class Trace;
+struct AccelQuery;
+
+class Accelerator
+{
+	public:
+		/// Takes what concerns this module from the options of a scene.
+		explicit Accelerator(POVMS_Object& options);
+		~Accelerator();
+
+		/// Is this Bounding_Method=3?
+		bool IsChosen() const { return chosen; }
+
+		/// Warns of options without effect. Throws if the configuration is not valid.
+		void CheckOptions(const SceneData& scene) const;
+
+		/// Builds the structure over the objects of the scene. Throws if it cannot, or if the user stops it.
+		void Build(const SceneData& scene);
+
+		/// Finds the object nearest along a ray, nearer than bestisect.Depth, as a linear search would.
+		bool FindIntersection(Trace& trace, TraceThreadData *thread, Intersection& bestisect, const Ray& ray) const;
+		bool FindIntersection(Trace& trace, TraceThreadData *thread, Intersection& bestisect, const Ray& ray,
+		                      const RayObjectCondition& precondition, const RayObjectCondition& postcondition) const;
+
+		/// Describes the structure for the parser statistics.
+		void GetStatistics(POVMS_Object& parserStats) const;
+
+		/// Describes what is not usual in a render, and the result of Accelerator_Verify.
+		static void GetStatistics(POVMS_Object& renderStats, const RenderStatistics& stats);
+
+		/// Did Accelerator_Verify find a difference anywhere in this process?
+		static bool DifferenceWasFound();
+	private:
+		/// was method 3 asked for?
+		bool chosen;
+		/// was an option given that needs method 3?
+		bool mentioned;
+		/// compare each answer with a linear search?
+		bool verify;
+		/// the configuration, in the library's words
+		std::string config;
+		/// the objects that a ray can hit, in the order of the scene
+		vector<ObjectPtr> objects;
+		/// number of light sources left out, as no ray can hit them
+		size_t lightsLeftOut;
+		/// the library's structure over objects; NULL until built
+		accel *structure;
+		/// for messages from the render threads, which outlive no scene
+		const SceneData *sceneData;
+
+		bool Find(Trace& trace, AccelQuery& query) const;
+		void Verify(Trace& trace, const AccelQuery& query, DBL limit, bool found, uint32_t index) const;
+		void ReportDifference(const AccelQuery& query, DBL limit, const std::string& ours, const std::string& linear) const;
+		std::string Describe(bool found, uint32_t index, const Intersection& isect) const;
+
+		/// not available
+		Accelerator(const Accelerator&);
+		Accelerator& operator=(const Accelerator&);
+};
+
+}
+
+#endif // POVRAY_BACKEND_POVACCEL_H
