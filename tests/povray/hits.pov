@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where stock POV-Ray's trace() finds the rays of a file to hit a scene of triangles.
+// Where stock POV-Ray's trace() finds the rays of accel's camera to hit a scene of triangles.
 //
 // Every triangle becomes a smooth_triangle with one and the same normal at its three corners:
 // POV-Ray intersects it as a plain triangle, in double, and the normal that trace() returns names
@@ -9,8 +9,10 @@
 //
 // Declare=Total=N   triangles in the scene
 // Declare=Scene=S   0: cubes.inc with Declare=Gap=X; 1: triangles.inc, as accel export --as triangles
-// Reads rays.txt (origin and direction, six numbers and commas), writes hits.txt: the point and
-// the number in 20 digits for a hit, "miss" for a miss.
+// Declare=Eye_X=X and so on, At_X, Fov, Columns, Rows: the camera of accel trace, whose formula
+//                   stands in accel/cli/camera.h and below, in the same order in double
+// Writes hits.txt, a line for each pixel, row by row: the point and the number in 20 digits for a
+// hit, "miss" for a miss.
 #version 3.7;
 global_settings { assumed_gamma 1 }
 
@@ -56,17 +58,30 @@ global_settings { assumed_gamma 1 }
     #error concat("the scene has ", str(Number, 0, 0), " triangles instead of ", str(Total, 0, 0))
 #end
 
-#fopen Rays "rays.txt" read
+#declare Eye = <Eye_X, Eye_Y, Eye_Z>;
+#declare W = <At_X, At_Y, At_Z> - Eye;
+#declare W = W / sqrt(W.x * W.x + W.y * W.y + W.z * W.z);
+#declare R = <-W.z, 0, W.x>;
+#declare R = R / sqrt(R.x * R.x + R.y * R.y + R.z * R.z);
+#declare U = <R.y * W.z - R.z * W.y, R.z * W.x - R.x * W.z, R.x * W.y - R.y * W.x>;
+#declare H = tan(Fov * pi / 360);
+
 #fopen Hits "hits.txt" write
-#while (defined(Rays))
-    #read (Rays, Ox, Oy, Oz, Dx, Dy, Dz)
-    #declare Normal = <0, 0, 0>;
-    #declare Point = trace(All, <Ox, Oy, Oz>, <Dx, Dy, Dz>, Normal);
-    #if (vlength(Normal) = 0)
-        #write (Hits, "miss\n")
-    #else
-        #write (Hits, vstr(3, Point, " ", 0, 20), " ", str(Decoded(Normal), 0, 20), "\n")
+#declare J = 0;
+#while (J < Rows)
+    #declare Y = (1 - 2 * (J + 0.5) / Rows) * (H * Rows / Columns);
+    #declare I = 0;
+    #while (I < Columns)
+        #declare X = (2 * (I + 0.5) / Columns - 1) * H;
+        #declare Normal = <0, 0, 0>;
+        #declare Point = trace(All, Eye, (W + X * R) + Y * U, Normal);
+        #if (vlength(Normal) = 0)
+            #write (Hits, "miss\n")
+        #else
+            #write (Hits, vstr(3, Point, " ", 0, 20), " ", str(Decoded(Normal), 0, 20), "\n")
+        #end
+        #declare I = I + 1;
     #end
+    #declare J = J + 1;
 #end
 #fclose Hits
-#fclose Rays
