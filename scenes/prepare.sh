@@ -16,11 +16,10 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build=$root/build
 logs=$build/logs
 
-# The packages, in one place. ca-certificates: for mirrors that are reached by https.
+# The packages; those to build POV-Ray are known to povray-adapter/build.sh. ca-certificates: for
+# mirrors that are reached by https.
 packages_build=(ca-certificates gcc g++ make cmake pkg-config libassimp-dev libopenexr-dev
     libpng-dev librandom123-dev)
-packages_povray_build=(autoconf automake autoconf-archive debhelper dpkg-dev patch libpng-dev
-    zlib1g-dev libjpeg-dev libtiff-dev libopenexr-dev libboost-thread-dev libboost-date-time-dev)
 packages_stock=(povray povray-includes)
 packages_tests=(povray-examples libcmocka-dev libembree-dev gnuplot-nox clang)
 
@@ -125,9 +124,11 @@ build_accel() {
 }
 
 prepare() {
-    local packages=("${packages_build[@]}" "${packages_povray_build[@]}" "${packages_stock[@]}")
+    local packages
+    mapfile -t packages < <("$root/povray-adapter/build.sh" --packages | tr -s ' \n' '\n')
+    packages+=("${packages_build[@]}" "${packages_stock[@]}")
     [ "$1" != tests ] || packages+=("${packages_tests[@]}")
     install_missing "${packages[@]}"
     build_accel "$1"
-    step "patched POV-Ray (about ten minutes the first time)" "$root/povray-adapter/build.sh"
+    "$root/povray-adapter/build.sh" "$build" || die "the patched POV-Ray cannot be built"
 }
