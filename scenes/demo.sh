@@ -67,7 +67,7 @@ render() {
 # must_render: the same; its failure ends the demo.
 must_render() {
     render "$@" && return
-    grep -aE 'rror' "$1" | head -n 3 >&2 || true
+    tail -n 4 "$1" >&2
     die "$2 failed; all of its output: ${1#"$root"/}"
 }
 
@@ -134,7 +134,10 @@ judge_pixels() {
     done
 }
 
-pixel_of() { pixels "$1" | tail -c +$(($2 * 6 + 1)) | head -c 6 | od -An -tx1; }
+# pixel_of FILE.ppm INDEX: its six bytes.
+pixel_of() {
+    od -An -tx1 -N 6 -j $(($(stat -c %s "$1") - (width * height - $2) * 6)) "$1"
+}
 
 # verify SCENE CONFIG: a small render in which linear search judges every query; sets verified_count
 # and difference_count.
@@ -200,7 +203,8 @@ main() {
     say "rays: in the picture. judged: rays of a small picture that linear search traced again."
     say "trace: CPU seconds on one thread, median of $runs runs in turn. ratio over 1: ours is faster."
     say
-    say "scene      kind                rays    judged   differing hits pixels trace:stock   ours   ratio"
+    printf '%-10s %-14s %9s %9s %9s %9s %8s %8s %7s\n' "" "" "" "" differing differing trace trace "" \
+        scene kind rays judged hits pixels "stock s" "ours s" ratio
     printf '%s\n' "${rows[@]}"
     say
     [ "${#notes[@]}" -eq 0 ] || printf '%s\n' "${notes[@]}" ''
