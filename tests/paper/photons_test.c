@@ -208,7 +208,12 @@ static void furnace(void **state)
     const accel_receiver points[2] = {{{0.5, 0.0, 0.5}, {0, 1, 0}}, {{0.0, 0.3, 0.6}, {1, 0, 0}}};
     const accel_receivers receivers = {points, 2};
     accel *a = build(&r.scene, "octree");
-    double mean[SEEDS], paths[2][SEEDS], nearest[2][SEEDS];
+    /* few photons each, over the whole floor: a bias of 1/20 would show */
+    accel_receiver floor[64];
+    for (int i = 0; i < 64; i++) {
+        floor[i] = (accel_receiver){{(i % 8 + 0.5) / 8, 0, (i / 8 + 0.5) / 8}, {0, 1, 0}};
+    }
+    double mean[SEEDS], few[SEEDS], paths[2][SEEDS], nearest[2][SEEDS];
     for (int i = 0; i < SEEDS; i++) {
         run.seed = (uint64_t)i;
         accel_photons photons = trace(a, &r.scene, &run);
@@ -220,6 +225,13 @@ static void furnace(void **state)
         assert_true(accel_irradiance_paths(&photons, &run, receivers, 0.2, "octree", by_paths,
                                            &query, &error));
         assert_true(accel_irradiance_nearest(&photons, &run, receivers, 0.3, 1500, by_nearest));
+        double by_few[64];
+        assert_true(accel_irradiance_nearest(&photons, &run, (accel_receivers){floor, 64}, 0.05, 20,
+                                             by_few));
+        few[i] = 0.0;
+        for (int k = 0; k < 64; k++) {
+            few[i] += by_few[k] / 64;
+        }
         for (int k = 0; k < 2; k++) {
             paths[k][i] = by_paths[k];
             nearest[k][i] = by_nearest[k];
@@ -227,6 +239,7 @@ static void furnace(void **state)
         accel_photons_free(&photons);
     }
     assert_mean("furnace, mean of all walls", mean, 2.0, 0.01);
+    assert_mean("furnace, by 20 photons", few, 2.0, 0.01);
     for (int k = 0; k < 2; k++) {
         assert_mean("furnace, by paths", paths[k], 2.0, 0.01);
         assert_mean("furnace, by nearest photons", nearest[k], 2.0, 0.01);
@@ -371,6 +384,31 @@ static void crossing_rule(void **state)
     assert_true(crossings(-0.8, 0.6, 0, 0.8, -0.6, 0, 0.5) == 1); /* tilted */
 }
 
+/* One photon of power 1 at the height 0.6, seen from the origin: irradiance times pi times the
+ * square of the distance that the estimate divides by. */
+static double near_power(double dy, double radius, uint32_t nearest)
+{
+    accel_photon photon = {.at = {0, 0.6, 0.8}, .dir = {0, dy, 0}, .length = 1};
+    const accel_light light = {.power = 1.0};
+    const accel_photons photons = {.at = &photon, .count = 1};
+    const accel_photon_run run = {.lights = {&light, 1}, .photons = 1, .threads = 1};
+    const accel_receiver receiver = {{0, 0, 0}, {0, 1, 0}};
+    double irradiance;
+    assert_true(accel_irradiance_nearest(&photons, &run, (accel_receivers){&receiver, 1}, radius,
+                                         nearest, &irradiance));
+    return irradiance * acos(-1.0);
+}
+
+/* Which photons the nearest ones are. */
+static void nearest_rule(void **state)
+{
+    (void)state;
+    assert_true(near_power(-1, 2.0, 5) == 0.25); /* fewer than 5: all within the radius */
+    assert_true(near_power(1, 2.0, 5) == 0.0);   /* from behind */
+    assert_true(near_power(-1, 0.99, 5) == 0.0); /* too far */
+    assert_true(near_power(-1, 2.0, 1) == 0.0);  /* the last of `nearest` gives the distance only */
+}
+
 /* A light that a user types. */
 static void reading_lights(void **state)
 {
@@ -407,6 +445,7 @@ int main(void)
         cmocka_unit_test(energy_balance),
         cmocka_unit_test(same_bits),
         cmocka_unit_test(crossing_rule),
+        cmocka_unit_test(nearest_rule),
         cmocka_unit_test(reading_lights),
     };
     return cmocka_run_group_tests_name("photons", tests, NULL, NULL);
