@@ -6,6 +6,7 @@
 
 #include "commands.h"
 #include "crew.h"
+#include "ray_text.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -28,7 +29,7 @@ static const accel_flag flags[] = {
      "rays that linear judges (default: all up to 10^10 tests of primitives, at\n"
      "least 20000); the others are judged by agreement of the structures"},
     {"ray", 0, "RAY",
-     "replay one ray, 'ox oy oz dx dy dz tmin tmax [geom prim]'; hex floats, inf\n"
+     "replay one ray, 'ox oy oz dx dy dz [tmin tmax [geom prim]]'; hex floats, inf\n"
      "and nan are read; geom prim is the primitive that is skipped"},
 };
 
@@ -164,10 +165,10 @@ static int check_rays(accel_check *check, const request *request)
 static int build_and_check(accel_check *check, const request *request)
 {
     accel_ray ray;
-    if (request->ray != NULL && !accel_check_read_ray(request->ray, &ray)) {
+    if (request->ray != NULL && !accel_read_ray(request->ray, &ray)) {
         return accel_complain(check->command,
-                              "--ray '%.200s' is no ray; allowed is 'ox oy oz dx dy dz tmin tmax "
-                              "[geom prim]'; nothing was checked",
+                              "--ray '%.200s' is no ray; allowed is 'ox oy oz dx dy dz [tmin "
+                              "tmax [geom prim]]'; nothing was checked",
                               request->ray);
     }
     if (!accel_open_scene(&check->loaded, request->scene, check->command, &check->progress)) {

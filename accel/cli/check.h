@@ -52,9 +52,6 @@ bool accel_check_run(accel_check *check);
 /* Prints the tallies and the rays that differ. Returns the exit code. */
 int accel_check_report(const accel_check *check);
 
-/* Reads "ox oy oz dx dy dz tmin tmax [geom prim]"; false where it is something else. */
-bool accel_check_read_ray(const char *text, accel_ray *ray);
-
 /* Asks linear and all suspects for one ray and prints their answers. Returns the exit code. */
 int accel_check_replay(const accel_check *check, const accel_ray *ray);
 

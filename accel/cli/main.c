@@ -16,6 +16,8 @@ static const accel_command *const commands[] = {
     &accel_command_kinds,
     &accel_command_info,
     &accel_command_check,
+    &accel_command_trace,
+    &accel_command_diff,
     &accel_command_export,
     &accel_command_photons,
     &accel_command_tables,

@@ -160,6 +160,6 @@ void accel_file_import(void *user, FILE *pipe)
     if (scene == NULL) {
         send_trouble(pipe, aiGetErrorString());
     } else {
-        send_scene(pipe, scene, file->memory);
+        send_scene(pipe, scene, accel_file_memory(file->size));
     }
 }

@@ -7,20 +7,11 @@
 #include "scene_file.h"
 #include "scene_build.h"
 
-#include <errno.h>
-#include <fcntl.h>
-#include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
-/* Enough for 10^8 triangles in text; beyond it a file is a mistake or an attack. */
-#define MOST_FILE_BYTES ((uint64_t)8 << 30)
 
 /* Bytes that importing a file may take: text formats hold a number in two bytes, and the importers
  * keep about a hundred bytes for each. */
-static uint64_t memory_for(size_t file_bytes)
+uint64_t accel_file_memory(size_t file_bytes)
 {
     return ((uint64_t)1 << 30) + 100 * (uint64_t)file_bytes;
 }
@@ -29,82 +20,6 @@ static uint64_t memory_for(size_t file_bytes)
 static unsigned seconds_for(size_t file_bytes)
 {
     return 60 + (unsigned)(file_bytes / 200000);
-}
-
-static bool fail(const char *path, const char *trouble, accel_error *error)
-{
-    error->status = ACCEL_BAD_ARGUMENT;
-    snprintf(error->text, sizeof error->text, "%.200s: %s; nothing was loaded", path, trouble);
-    return false;
-}
-
-static const char *why_not_a_file(int descriptor, uint64_t *size)
-{
-    struct stat status;
-    if (fstat(descriptor, &status) != 0) {
-        return strerror(errno);
-    }
-    if (S_ISDIR(status.st_mode)) {
-        return "is a directory, not a mesh file";
-    }
-    if (!S_ISREG(status.st_mode)) {
-        return "is not a regular file";
-    }
-    *size = (uint64_t)status.st_size;
-    if (*size == 0) {
-        return "is empty";
-    }
-    return *size > MOST_FILE_BYTES ? "is larger than 8 GiB" : NULL;
-}
-
-static const char *read_all(int descriptor, accel_file *file)
-{
-    size_t done = 0;
-    while (done < file->size) {
-        const ssize_t got = read(descriptor, file->bytes + done, file->size - done);
-        if (got == 0) {
-            return "became shorter while it was read";
-        }
-        if (got < 0 && errno != EINTR) {
-            return strerror(errno);
-        }
-        done += got > 0 ? (size_t)got : 0;
-    }
-    return NULL;
-}
-
-static const char *read_open_file(int descriptor, accel_file *file)
-{
-    uint64_t size = 0;
-    const char *trouble = why_not_a_file(descriptor, &size);
-    if (trouble != NULL) {
-        return trouble;
-    }
-    file->size = (size_t)size;
-    file->bytes = calloc(file->size + 1, 1);
-    if (file->bytes == NULL) {
-        return "does not fit into memory";
-    }
-    trouble = read_all(descriptor, file);
-    if (trouble != NULL) {
-        free(file->bytes);
-        file->bytes = NULL;
-    }
-    return trouble;
-}
-
-bool accel_file_read(accel_file *file, const char *path, accel_error *error)
-{
-    *file = (accel_file){.path = path};
-    /* without O_NONBLOCK a pipe would wait for its writer */
-    const int descriptor = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
-    if (descriptor < 0) {
-        return fail(path, strerror(errno), error);
-    }
-    const char *trouble = read_open_file(descriptor, file);
-    close(descriptor);
-    file->memory = memory_for(file->size);
-    return trouble == NULL || fail(path, trouble, error);
 }
 
 static bool indices_are_fine(const accel_growing *mesh)
@@ -166,9 +81,9 @@ static bool import(accel_loaded *out, accel_file *file, accel_load_progress *pro
                    accel_error *error)
 {
     accel_child child;
-    const accel_child_limits limits = {file->memory, seconds_for(file->size)};
+    const accel_child_limits limits = {accel_file_memory(file->size), seconds_for(file->size)};
     if (!accel_child_start(&child, limits, accel_file_import, file)) {
-        return fail(file->path, "no process for its reader", error);
+        return accel_file_fail(file->path, "no process for its reader", error);
     }
     child.tick = progress;
     child.user = user;
@@ -177,7 +92,7 @@ static bool import(accel_loaded *out, accel_file *file, accel_load_progress *pro
     const char *end = accel_child_end(&child);
     /* a child that died explains more than the bytes that are missing */
     trouble = trouble != NULL && end != NULL ? end : trouble;
-    return trouble == NULL || fail(file->path, trouble, error);
+    return trouble == NULL || accel_file_fail(file->path, trouble, error);
 }
 
 bool accel_load_file(accel_loaded *out, const char *path, accel_load_progress *progress, void *user,
@@ -189,8 +104,8 @@ bool accel_load_file(accel_loaded *out, const char *path, accel_load_progress *p
     }
     char text[200];
     const char *trouble = accel_file_counts(&file, text);
-    const bool fine =
-        trouble == NULL ? import(out, &file, progress, user, error) : fail(path, trouble, error);
+    const bool fine = trouble == NULL ? import(out, &file, progress, user, error)
+                                      : accel_file_fail(path, trouble, error);
     if (!fine) {
         accel_unload_scene(out);
     }

@@ -1,26 +1,19 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Between the parts of the mesh file loader: the bytes of a file, the checks of what its header
- * promises, the importer in the child, and what it sends.
+ * Between the parts of the mesh file loader: the checks of what a header promises, the importer in
+ * the child, and what it sends.
  */
 #ifndef ACCEL_CLI_SCENE_FILE_H
 #define ACCEL_CLI_SCENE_FILE_H
 
 #include "child.h"
+#include "file.h"
 
 #include <accel/accel.h>
 #include <assimp/cfileio.h>
 
-/* A whole file in memory. */
-typedef struct accel_file {
-    const char *path; /* as the user gave it */
-    char *bytes;      /* `size` of them and a zero behind */
-    size_t size;
-    uint64_t memory; /* bytes that importing it may take */
-} accel_file;
-
-/* Reads a regular file. Otherwise fills error->text and holds nothing. */
-bool accel_file_read(accel_file *file, const char *path, accel_error *error);
+/* Bytes that importing a file of this size may take. */
+uint64_t accel_file_memory(size_t file_bytes);
 
 /* Compares what the headers of PLY, OFF and STL files promise with the bytes that are there.
  * Returns NULL where nothing is wrong or the format has no counts; otherwise what is wrong. `text`

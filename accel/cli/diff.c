@@ -1,0 +1,214 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * accel diff: do two OpenEXR files of hits agree in every bit of every channel?
+ */
+#include "commands.h"
+#include "image.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { FLAG_OUTPUT };
+
+enum { SHOWN = 10 };
+
+static const accel_flag flags[] = {
+    {"output", 'o', "FILE.png", "difference image: white where a pixel differs, else dark"},
+};
+
+/* Why the two cannot be compared, or NULL. */
+static const char *why_not_comparable(const accel_image *a, const accel_image *b)
+{
+    if (a->width != b->width || a->height != b->height) {
+        return "differ in size";
+    }
+    if (a->channel_count != b->channel_count) {
+        return "differ in the number of channels";
+    }
+    for (uint32_t i = 0; i < a->channel_count; i++) {
+        if (strcmp(a->channels[i].name, b->channels[i].name) != 0 ||
+            a->channels[i].is_float != b->channels[i].is_float) {
+            return "differ in the names or types of channels";
+        }
+    }
+    return NULL;
+}
+
+static bool pixel_differs(const accel_image *a, const accel_image *b, size_t pixel)
+{
+    for (uint32_t i = 0; i < a->channel_count; i++) {
+        if (a->channels[i].bits[pixel] != b->channels[i].bits[pixel]) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static void print_value(const accel_channel *channel, size_t pixel)
+{
+    float value;
+    if (channel->is_float) {
+        memcpy(&value, &channel->bits[pixel], sizeof value);
+        printf("%.9g", (double)value);
+    } else {
+        printf("%" PRIu32, channel->bits[pixel]);
+    }
+}
+
+static double join_halves(const accel_channel *hi, size_t pixel)
+{
+    const uint64_t bits = (uint64_t)hi[0].bits[pixel] << 32 | hi[1].bits[pixel];
+    double value;
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
+/* Is channel i the upper half of a double, and the next one its lower half? */
+static bool is_double(const accel_image *image, uint32_t i)
+{
+    const accel_channel *hi = &image->channels[i];
+    const size_t length = strlen(hi->name);
+    return i + 1 < image->channel_count && length > 3 && !hi->is_float &&
+           strcmp(hi->name + length - 3, ".hi") == 0 &&
+           strncmp(hi->name, hi[1].name, length - 2) == 0 &&
+           strcmp(hi[1].name + length - 3, ".lo") == 0;
+}
+
+static void print_pixel(const accel_image *a, const accel_image *b, size_t pixel)
+{
+    printf("pixel (%zu, %zu):", pixel % a->width, pixel / a->width);
+    for (uint32_t i = 0; i < a->channel_count; i++) {
+        const accel_channel *ca = &a->channels[i], *cb = &b->channels[i];
+        const bool whole = is_double(a, i);
+        const bool differs = ca[0].bits[pixel] != cb[0].bits[pixel] ||
+                             (whole && ca[1].bits[pixel] != cb[1].bits[pixel]);
+        if (differs && whole) {
+            printf("  %.*s %.17g / %.17g", (int)strlen(ca->name) - 3, ca->name,
+                   join_halves(ca, pixel), join_halves(cb, pixel));
+        } else if (differs) {
+            printf("  %s ", ca->name);
+            print_value(ca, pixel);
+            printf(" / ");
+            print_value(cb, pixel);
+        }
+        i += whole;
+    }
+    printf("\n");
+}
+
+static uint64_t compare(const accel_image *a, const accel_image *b, unsigned char *picture)
+{
+    uint64_t different = 0;
+    const size_t pixels = (size_t)a->width * a->height;
+    for (size_t pixel = 0; pixel < pixels; pixel++) {
+        const bool differs = pixel_differs(a, b, pixel);
+        memset(picture + 3 * pixel, differs ? 255 : 24, 3);
+        if (differs && different++ < SHOWN) {
+            print_pixel(a, b, pixel);
+        }
+    }
+    printf("%zu pixels, %" PRIu32 " channels: %" PRIu64 " pixels differ\n", pixels,
+           a->channel_count, different);
+    return different;
+}
+
+static bool write_picture(const unsigned char *picture, const accel_image *a, const char *path,
+                          accel_error *error)
+{
+    accel_output output;
+    if (path == NULL) {
+        return true;
+    }
+    if (!accel_output_open(&output, path, error)) {
+        return false;
+    }
+    if (!accel_write_png(picture, a->width, a->height, &output, error)) {
+        accel_output_abandon(&output);
+        return false;
+    }
+    return accel_output_commit(&output, error);
+}
+
+static int diff_images(const accel_command *command, char *const names[2], const accel_image *a,
+                       const accel_image *b, const char *output)
+{
+    const char *trouble = why_not_comparable(a, b);
+    if (trouble != NULL) {
+        return accel_complain(command, "%.100s and %.100s %s and cannot be compared", names[0],
+                              names[1], trouble);
+    }
+    unsigned char *picture = malloc((size_t)a->width * a->height * 3);
+    if (picture == NULL) {
+        return accel_complain(command, "out of memory; nothing was compared");
+    }
+    const uint64_t different = compare(a, b, picture);
+    accel_error error;
+    const bool written = write_picture(picture, a, output, &error);
+    free(picture);
+    if (!written) {
+        return accel_complain(command, "%s", error.text);
+    }
+    return different == 0 ? ACCEL_EXIT_FINE : ACCEL_EXIT_DIFFERENT;
+}
+
+static int diff_files(const accel_command *command, char *const names[2], const char *output)
+{
+    static accel_image a, b;
+    accel_error error;
+    if (!accel_image_read_exr(&a, names[0], &error)) {
+        return accel_complain(command, "%s", error.text);
+    }
+    int code = ACCEL_EXIT_BAD;
+    if (accel_image_read_exr(&b, names[1], &error)) {
+        code = diff_images(command, names, &a, &b, output);
+        accel_image_free(&b);
+    } else {
+        accel_complain(command, "%s", error.text);
+    }
+    accel_image_free(&a);
+    return code;
+}
+
+static int run(const accel_command *command, int argc, char **argv)
+{
+    accel_arguments arguments = accel_arguments_start(command, argc, argv);
+    char *names[2] = {NULL, NULL};
+    const char *output = NULL;
+    size_t count = 0;
+    for (;;) {
+        switch (accel_next_argument(&arguments)) {
+        case ACCEL_ARGUMENT_STOP:
+            return arguments.exit_code;
+        case FLAG_OUTPUT:
+            output = arguments.value;
+            break;
+        case ACCEL_ARGUMENT_WORD:
+            if (count == 2) {
+                return accel_complain(command, "unexpected '%.60s': two files are enough",
+                                      arguments.value);
+            }
+            names[count++] = argv[arguments.at - 1];
+            break;
+        default:
+            if (count < 2) {
+                return accel_complain(command, "two files are needed; usage: accel %s %s",
+                                      command->name, command->arguments);
+            }
+            return diff_files(command, names, output);
+        }
+    }
+}
+
+const accel_command accel_command_diff = {
+    .name = "diff",
+    .arguments = "A.exr B.exr [-o FILE.png]",
+    .summary = "compare two OpenEXR files of hits, bit for bit",
+    .details =
+        "Counts the pixels of which any channel differs in any bit, prints the first ten, and\n"
+        "exits with 1 where there is any. Pairs NAME.hi and NAME.lo are shown as a double.\n"
+        "Any scan line file without lossy compression can be compared.",
+    .flags = flags,
+    .flag_count = sizeof flags / sizeof flags[0],
+    .run = run,
+};

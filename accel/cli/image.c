@@ -1,0 +1,49 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * Images in memory, and pictures as PNG.
+ */
+#include "image.h"
+
+#include <ctype.h>
+#include <png.h>
+#include <stdlib.h>
+#include <string.h>
+
+bool accel_image_make(accel_image *image, uint32_t width, uint32_t height, const char *const *names)
+{
+    *image = (accel_image){.width = width, .height = height};
+    for (; names[image->channel_count] != NULL; image->channel_count++) {
+        const char *name = names[image->channel_count];
+        accel_channel *channel = &image->channels[image->channel_count];
+        snprintf(channel->name, sizeof channel->name, "%s", name);
+        channel->is_float = isupper((unsigned char)name[0]);
+        channel->bits = calloc((size_t)width * height, sizeof *channel->bits);
+        if (channel->bits == NULL) {
+            accel_image_free(image);
+            return false;
+        }
+    }
+    return true;
+}
+
+void accel_image_free(accel_image *image)
+{
+    for (uint32_t i = 0; i < image->channel_count; i++) {
+        free(image->channels[i].bits);
+    }
+    *image = (accel_image){0};
+}
+
+bool accel_write_png(const unsigned char *pixels, uint32_t width, uint32_t height,
+                     accel_output *output, accel_error *error)
+{
+    png_image png = {
+        .version = PNG_IMAGE_VERSION, .width = width, .height = height, .format = PNG_FORMAT_RGB};
+    if (png_image_write_to_stdio(&png, output->file, 0, pixels, 0, NULL) != 0) {
+        return true;
+    }
+    error->status = ACCEL_BAD_ARGUMENT;
+    snprintf(error->text, sizeof error->text, "cannot write %.200s: %s; nothing was written",
+             output->path, png.message);
+    return false;
+}

@@ -1,0 +1,251 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * accel trace: hits of a camera or of a file of rays, as OpenEXR, PNG or text.
+ */
+#include "trace.h"
+
+#include "commands.h"
+#include "crew.h"
+#include "words.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { FLAG_CONFIG, FLAG_OUTPUT, FLAG_SIZE, FLAG_CAMERA, FLAG_RAYS, FLAG_THREADS };
+
+static const accel_flag flags[] = {
+    {"accelerator", 'a', "CONFIG", "structure to trace with (default: " ACCEL_DEFAULT_CONFIG ")"},
+    {"output", 'o', "FILE",
+     "file to write; its name ends in .exr or .png, with --rays in anything"},
+    {"size", 0, "WxH", "pixels (default 640x480)"},
+    {"camera", 0, "E:A:F",
+     "eye x,y,z : point x,y,z in the middle of the image : full horizontal field of\n"
+     "view in degrees (default: frames the scene with 40 degrees)"},
+    {"rays", 0, "FILE", "trace the rays of FILE instead and write a text"},
+    {"threads", 't', "T", "threads (default: one for each processor)"},
+};
+
+/* What the arguments say. */
+typedef struct request {
+    const char *scene, *config, *output, *size, *camera, *rays;
+    uint64_t threads;
+} request;
+
+static bool ends_with(const char *path, const char *extension)
+{
+    const size_t length = strlen(path), ending = strlen(extension);
+    return length > ending && strcmp(path + length - ending, extension) == 0;
+}
+
+/* Reads three numbers that are separated by commas, up to `length` bytes. */
+static bool read_point(const char *text, size_t length, double out[3])
+{
+    for (int k = 0; k < 3; k++) {
+        const char *comma = memchr(text, ',', length);
+        const size_t part = k == 2 || comma == NULL ? length : (size_t)(comma - text);
+        if ((k < 2 && comma == NULL) || !accel_read_number(text, part, &out[k])) {
+            return false;
+        }
+        text += part + (k < 2);
+        length -= part + (k < 2);
+    }
+    return true;
+}
+
+static bool read_camera(const char *text, double eye[3], double at[3], double *fov)
+{
+    const char *first = strchr(text, ':');
+    const char *second = first == NULL ? NULL : strchr(first + 1, ':');
+    return second != NULL && read_point(text, (size_t)(first - text), eye) &&
+           read_point(first + 1, (size_t)(second - first - 1), at) &&
+           accel_read_number(second + 1, strlen(second + 1), fov);
+}
+
+static bool read_size(const char *text, uint32_t *width, uint32_t *height)
+{
+    double w, h;
+    const char *x = strchr(text, 'x');
+    if (x == NULL || !accel_read_number(text, (size_t)(x - text), &w) ||
+        !accel_read_number(x + 1, strlen(x + 1), &h) || w != floor(w) || h != floor(h) || w < 1.0 ||
+        h < 1.0 || w > 65536.0 || h > 65536.0 || w * h > ACCEL_MOST_PIXELS) {
+        return false;
+    }
+    *width = (uint32_t)w;
+    *height = (uint32_t)h;
+    return true;
+}
+
+static bool make_camera(const accel_command *command, const request *request,
+                        const accel_scene *scene, accel_camera *camera)
+{
+    uint32_t width = 640, height = 480;
+    double eye[3], at[3], fov = 40.0;
+    if (request->size != NULL && !read_size(request->size, &width, &height)) {
+        accel_complain(command,
+                       "--size is '%.60s'; allowed is WxH, up to 65536 each and 2^26 pixels; "
+                       "nothing was written",
+                       request->size);
+        return false;
+    }
+    accel_box box;
+    accel_scene_box(scene, &box);
+    accel_camera_frame(&box, eye, at);
+    if ((request->camera != NULL && !read_camera(request->camera, eye, at, &fov)) ||
+        !accel_camera_make(camera, eye, at, fov, width, height)) {
+        accel_complain(command,
+                       "camera '%.100s' is no camera; allowed is ex,ey,ez:ax,ay,az:degrees, two "
+                       "points that differ and degrees between 0 and 180; nothing was written",
+                       request->camera == NULL ? "(default)" : request->camera);
+        return false;
+    }
+    return true;
+}
+
+static bool write_image(accel_tracing *tracing, const accel_camera *camera, accel_output *output,
+                        accel_error *error)
+{
+    error->status = ACCEL_NO_MEMORY;
+    snprintf(error->text, sizeof error->text, "out of memory; nothing was written");
+    bool fine = false;
+    if (ends_with(output->path, ".png")) {
+        unsigned char *pixels = accel_trace_picture(tracing, camera);
+        fine =
+            pixels != NULL && accel_write_png(pixels, camera->width, camera->height, output, error);
+        free(pixels);
+    } else {
+        accel_image image;
+        if (accel_trace_image(tracing, camera, &image)) {
+            fine = accel_image_write_exr(&image, output, error);
+            accel_image_free(&image);
+        }
+    }
+    return fine;
+}
+
+/* The output is open: it is put in place or removed. */
+static int fill_output(const accel_command *command, const request *request, accel_tracing *tracing,
+                       accel_output *output)
+{
+    accel_camera camera;
+    if (request->rays == NULL && !make_camera(command, request, tracing->scene, &camera)) {
+        accel_output_abandon(output);
+        return ACCEL_EXIT_BAD;
+    }
+    accel_error error;
+    const bool fine = request->rays == NULL
+                          ? write_image(tracing, &camera, output, &error)
+                          : accel_trace_text(tracing, request->rays, output->file, &error);
+    if (!fine) {
+        accel_output_abandon(output);
+        return accel_complain(command, "%s", error.text);
+    }
+    return accel_output_commit(output, &error) ? ACCEL_EXIT_FINE
+                                               : accel_complain(command, "%s", error.text);
+}
+
+static int load_and_trace(const accel_command *command, const request *request, bool quiet)
+{
+    accel_tracing tracing = {.threads = request->threads == 0 ? accel_crew_size()
+                                                              : (unsigned)request->threads,
+                             .progress = accel_progress_start(quiet)};
+    accel_loaded loaded;
+    if (!accel_open_scene(&loaded, request->scene, command, &tracing.progress)) {
+        return ACCEL_EXIT_BAD;
+    }
+    int code = ACCEL_EXIT_BAD;
+    accel_output output;
+    accel_error error;
+    accel *a = accel_open_structure(&loaded, request->config, command, &tracing.progress);
+    tracing.scene = &loaded.scene;
+    tracing.structure = a;
+    if (a != NULL && accel_output_open(&output, request->output, &error)) {
+        code = fill_output(command, request, &tracing, &output);
+    } else if (a != NULL) {
+        accel_complain(command, "%s", error.text);
+    }
+    accel_free(a);
+    accel_unload_scene(&loaded);
+    return code;
+}
+
+static int check_request(const accel_command *command, const request *request, bool quiet)
+{
+    if (request->scene == NULL || request->output == NULL) {
+        return accel_complain(command, "SCENE and -o FILE are needed; usage: accel %s %s",
+                              command->name, command->arguments);
+    }
+    if (request->rays == NULL && !ends_with(request->output, ".exr") &&
+        !ends_with(request->output, ".png")) {
+        return accel_complain(command,
+                              "-o '%.100s' ends in neither .exr nor .png; nothing was "
+                              "written",
+                              request->output);
+    }
+    return load_and_trace(command, request, quiet);
+}
+
+static bool take_argument(accel_arguments *arguments, int found, request *request)
+{
+    const char **const texts[] = {[FLAG_CONFIG] = &request->config,
+                                  [FLAG_OUTPUT] = &request->output,
+                                  [FLAG_SIZE] = &request->size,
+                                  [FLAG_CAMERA] = &request->camera,
+                                  [FLAG_RAYS] = &request->rays};
+    if (found == FLAG_THREADS) {
+        return accel_whole_argument(arguments, found, 1, 1024, &request->threads);
+    }
+    if (found == ACCEL_ARGUMENT_WORD) {
+        return accel_one_word(arguments, "SCENE", &request->scene);
+    }
+    *texts[found] = arguments->value;
+    return true;
+}
+
+static int run(const accel_command *command, int argc, char **argv)
+{
+    accel_arguments arguments = accel_arguments_start(command, argc, argv);
+    request request = {.config = ACCEL_DEFAULT_CONFIG};
+    for (;;) {
+        const int found = accel_next_argument(&arguments);
+        if (found == ACCEL_ARGUMENT_STOP) {
+            return arguments.exit_code;
+        }
+        if (found == ACCEL_ARGUMENT_END) {
+            return check_request(command, &request, arguments.quiet);
+        }
+        if (!take_argument(&arguments, found, &request)) {
+            return ACCEL_EXIT_BAD;
+        }
+    }
+}
+
+const accel_command accel_command_trace = {
+    .name = "trace",
+    .arguments = "SCENE -o FILE [-a CONFIG] [--size WxH] [--camera E:A:F] [--rays FILE]",
+    .summary = "write the hits of a camera's rays, or of a file of rays",
+    .details =
+        "OpenEXR channels, scan lines, ZIP:\n"
+        "  N.X N.Y N.Z   float   geometric normal, as the triangle's winding has it\n"
+        "  P.X P.Y P.Z   float   position\n"
+        "  Z             float   distance from the eye; infinite for a miss\n"
+        "  geom prim     uint    ids; 4294967295 for a miss\n"
+        "  t.hi t.lo     uint    upper and lower 32 bits of the double t, in units of |direction|\n"
+        "  u.hi u.lo, v.hi v.lo  likewise the barycentric weights of the second and third vertex\n"
+        "PNG: coloured by the normal.\n"
+        "\n"
+        "Camera, in double, in this order of operations; column i and row j count from 0 at the\n"
+        "upper left, E is the eye, A the point looked at, F the degrees:\n"
+        "  w = (A - E) / |A - E|\n"
+        "  r = (-w.z, 0, w.x) / |(-w.z, 0, w.x)|     u = r x w\n"
+        "      (r = (w.y, -w.x, 0) / |...| where w.x = w.z = 0)\n"
+        "  h = tan(F * pi / 360)\n"
+        "  x = (2 (i + 0.5) / W - 1) h               y = (1 - 2 (j + 0.5) / H) (h H / W)\n"
+        "  origin = E     direction = (w + x r) + y u, not normalised\n"
+        "y is up; the system is right-handed, but nothing depends on that.\n"
+        "\n"
+        "--rays FILE: each line 'ox oy oz dx dy dz [tmin tmax [geom prim]]', blanks or commas\n"
+        "between; each line of the output is 'geom prim t u v' with 17 digits, or 'miss'.",
+    .flags = flags,
+    .flag_count = sizeof flags / sizeof flags[0],
+    .run = run,
+};
