@@ -1,17 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * accel photons: illuminates a scene by photons through each CONFIG, says what it cost, and that
- * all of them stored the same bits.
+ * accel photons: its arguments.
  */
 #include "commands.h"
 #include "crew.h"
-#include "photons.h"
-#include "structure.h"
+#include "photons_request.h"
 #include "words.h"
 
-#include <inttypes.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum {
@@ -21,6 +16,13 @@ enum {
     FLAG_REFLECTANCE,
     FLAG_SEED,
     FLAG_THREADS,
+    FLAG_TIME_ONLY,
+    FLAG_ESTIMATE,
+    FLAG_RADIUS,
+    FLAG_NEAREST,
+    FLAG_SIZE,
+    FLAG_CAMERA,
+    FLAG_OUTPUT,
 };
 
 static const accel_flag flags[] = {
@@ -34,17 +36,19 @@ static const accel_flag flags[] = {
     [FLAG_REFLECTANCE] = {"reflectance", 'r', "R", "of all surfaces, 0..0.99 (default: 0.5)"},
     [FLAG_SEED] = {"seed", 's', "S", "another number, other photons (default: 1)"},
     [FLAG_THREADS] = {"threads", 't', "T", "default: one for each processor"},
+    [FLAG_TIME_ONLY] = {"time-only", 0, NULL, "no irradiance, only what the photons cost"},
+    [FLAG_ESTIMATE] = {"estimate", 0, "METHOD",
+                       "irradiance by 'paths' through discs or by 'nearest' photons\n"
+                       "(default: paths)"},
+    [FLAG_RADIUS] = {"radius", 0, "R",
+                     "of the discs, or the farthest of the nearest photons (default: what\n"
+                     "100 hits would have each if they were spread evenly)"},
+    [FLAG_NEAREST] = {"nearest", 0, "K", "photons that 'nearest' takes (default: 100)"},
+    [FLAG_SIZE] = {"size", 0, "WxH", "pixels of the picture (default: 320x240)"},
+    [FLAG_CAMERA] = {"camera", 0, "E:A:F", "as for 'accel trace' (default: frames the scene)"},
+    [FLAG_OUTPUT] = {"output", 'o', "FILE",
+                     "irradiance of each pixel as .exr (channel Y, float) or .png (tone-mapped)"},
 };
-
-/* What the user asked for. */
-typedef struct request {
-    const char *scene;
-    accel_configs configs;
-    accel_light lights[ACCEL_MOST_LIGHTS];
-    uint32_t light_count; /* 0: the scene's own */
-    accel_photon_run run;
-    bool quiet;
-} request;
 
 static bool read_real(const accel_arguments *a, int flag, double min, double max, double *out)
 {
@@ -58,7 +62,7 @@ static bool read_real(const accel_arguments *a, int flag, double min, double max
     return false;
 }
 
-static bool read_light(const accel_arguments *a, request *r)
+static bool read_light(const accel_arguments *a, accel_photon_request *r)
 {
     if (r->light_count == ACCEL_MOST_LIGHTS) {
         accel_complain(a->command, "more than %d lights", ACCEL_MOST_LIGHTS);
@@ -71,9 +75,46 @@ static bool read_light(const accel_arguments *a, request *r)
     return wrong == NULL;
 }
 
-static bool read_flag(const accel_arguments *a, int flag, request *r)
+static bool read_estimate(const accel_arguments *a, accel_photon_request *r)
 {
-    uint64_t whole = 0;
+    r->nearest = strcmp(a->value, "nearest") == 0;
+    if (!r->nearest && strcmp(a->value, "paths") != 0) {
+        accel_complain(a->command, "--estimate is '%.60s'; allowed are paths, nearest", a->value);
+        return false;
+    }
+    return true;
+}
+
+/* The flags that say how to look at the result. */
+static bool read_view_flag(const accel_arguments *a, int flag, accel_photon_request *r)
+{
+    switch (flag) {
+    case FLAG_TIME_ONLY:
+        r->time_only = true;
+        return true;
+    case FLAG_ESTIMATE:
+        return read_estimate(a, r);
+    case FLAG_RADIUS:
+        return read_real(a, flag, 1e-100, 1e100, &r->radius);
+    case FLAG_NEAREST:
+        return accel_whole_argument(a, flag, 2, 10000000, &r->count);
+    case FLAG_SIZE:
+        r->size = a->value;
+        return true;
+    case FLAG_CAMERA:
+        r->camera = a->value;
+        return true;
+    case FLAG_OUTPUT:
+        r->output = a->value;
+        return true;
+    default:
+        return accel_one_word(a, "SCENE", &r->scene);
+    }
+}
+
+static bool read_flag(const accel_arguments *a, int flag, accel_photon_request *r)
+{
+    uint64_t whole;
     switch (flag) {
     case FLAG_CONFIG:
         return accel_configs_add(&r->configs, a->value, a->command);
@@ -96,92 +137,38 @@ static bool read_flag(const accel_arguments *a, int flag, request *r)
         r->run.threads = (unsigned)whole;
         return true;
     default:
-        return accel_one_word(a, "SCENE", &r->scene);
+        return read_view_flag(a, flag, r);
     }
 }
 
-static void show_tracing(void *progress, double done)
+static bool ends_with(const char *path, const char *ending)
 {
-    accel_progress_show(progress, "photons", done);
+    const size_t length = strlen(path), own = strlen(ending);
+    return length > own && strcmp(path + length - own, ending) == 0;
 }
 
-static void print_head(const request *r)
+static int check_request(const accel_command *command, accel_photon_request *r)
 {
-    printf("%s: %" PRIu32 " lights, %" PRIu32 " photons for each, reflectance %g, seed %" PRIu64
-           ", %u threads\n",
-           r->scene, r->run.lights.count, r->run.photons, r->run.reflectance, r->run.seed,
-           r->run.threads);
-    printf("%-36s %9s %9s %10s %10s %7s %7s %7s  %s\n", "structure", "build s", "illum s", "rays",
-           "hits", "nodes/r", "tests/r", "ns/ray", "hash of the hits");
-}
-
-static void print_row(const char *config, const accel *a, const accel_photons *photons,
-                      uint64_t hash)
-{
-    accel_info info;
-    accel_describe(a, &info);
-    const double rays = (double)photons->rays;
-    printf("%-36s %9.3f %9.3f %10" PRIu64 " %10zu %7.2f %7.2f %7.0f  %016" PRIx64 "\n", config,
-           info.seconds, photons->seconds, photons->rays, photons->count,
-           (double)photons->query.nodes / rays, (double)photons->query.tests / rays,
-           1e9 * photons->seconds / rays, hash);
-    fflush(stdout);
-}
-
-/* One CONFIG: exit code, and the hash of what it stored. */
-static int illuminate(const accel_command *command, request *r, const accel_loaded *loaded,
-                      const char *config, accel_progress *progress, uint64_t *hash)
-{
-    accel *a = accel_open_structure(loaded, config, command, progress);
-    if (a == NULL) {
-        return ACCEL_EXIT_BAD;
+    if (r->scene == NULL) {
+        return accel_complain(command, "no SCENE is given; usage: accel %s %s", command->name,
+                              command->arguments);
     }
-    accel_photons photons;
-    progress->what = config;
-    const bool fine = accel_trace_photons(&photons, a, &loaded->scene, &r->run);
-    accel_progress_clear(progress);
-    if (!fine) {
-        accel_free(a);
-        return accel_complain(command, "out of memory for the photons");
+    if (r->output != NULL &&
+        (r->time_only || (!ends_with(r->output, ".exr") && !ends_with(r->output, ".png")))) {
+        return accel_complain(command, "-o '%.100s' %s; nothing was written", r->output,
+                              r->time_only ? "needs what --time-only leaves out"
+                                           : "ends in neither .exr nor .png");
     }
-    *hash = accel_photons_hash(&photons);
-    print_row(config, a, &photons, *hash);
-    accel_photons_free(&photons);
-    accel_free(a);
-    return ACCEL_EXIT_FINE;
-}
-
-static int illuminate_all(const accel_command *command, request *r, const accel_loaded *loaded,
-                          accel_progress *progress)
-{
-    r->run.progress = show_tracing;
-    r->run.user = progress;
-    r->run.lights.at = r->lights;
-    r->run.lights.count = r->light_count;
-    if (r->light_count == 0) {
-        r->run.lights.count = accel_scene_lights(r->scene, &loaded->scene, r->lights);
+    if (r->configs.count == 0) {
+        r->configs.items[r->configs.count++] = ACCEL_DEFAULT_CONFIG;
     }
-    print_head(r);
-    uint64_t first = 0;
-    int code = ACCEL_EXIT_FINE;
-    for (size_t i = 0; i < r->configs.count && code != ACCEL_EXIT_BAD; i++) {
-        uint64_t hash = 0;
-        const int own = illuminate(command, r, loaded, r->configs.items[i], progress, &hash);
-        first = i == 0 ? hash : first;
-        if (own != ACCEL_EXIT_FINE) {
-            code = own;
-        } else if (hash != first) {
-            printf("DIFFERENT: %s did not store the hits of %s\n", r->configs.items[i],
-                   r->configs.items[0]);
-            code = ACCEL_EXIT_DIFFERENT;
-        }
-    }
-    return code;
+    return accel_photons_fulfil(command, r);
 }
 
 static int run(const accel_command *command, int argc, char **argv)
 {
-    request r = {.run = {.photons = 100000, .reflectance = 0.5, .seed = 1}};
+    accel_photon_request r = {.run = {.photons = 100000, .reflectance = 0.5, .seed = 1},
+                              .count = 100};
     r.run.threads = accel_crew_size();
     accel_arguments arguments = accel_arguments_start(command, argc, argv);
     int flag;
@@ -193,33 +180,20 @@ static int run(const accel_command *command, int argc, char **argv)
             return ACCEL_EXIT_BAD;
         }
     }
-    if (r.scene == NULL) {
-        return accel_complain(command, "no SCENE is given; usage: accel %s %s", command->name,
-                              command->arguments);
-    }
-    if (r.configs.count == 0) {
-        r.configs.items[r.configs.count++] = ACCEL_DEFAULT_CONFIG;
-    }
-    accel_progress progress = accel_progress_start(arguments.quiet);
-    accel_loaded loaded;
-    if (!accel_open_scene(&loaded, r.scene, command, &progress)) {
-        return ACCEL_EXIT_BAD;
-    }
-    const int code = illuminate_all(command, &r, &loaded, &progress);
-    accel_unload_scene(&loaded);
-    return code;
+    r.quiet = arguments.quiet;
+    return check_request(command, &r);
 }
 
 const accel_command accel_command_photons = {
     .name = "photons",
-    .arguments = "SCENE [-a CONFIG]... [OPTION]...",
+    .arguments = "SCENE [-a CONFIG]... [-o FILE] [OPTION]...",
     .summary = "illuminate a scene by photons, and compare what structures cost",
     .details =
         "Lights shoot photons, surfaces reflect them diffusely or swallow them, every hit is\n"
         "stored. Every structure, and every number of threads, traces the same paths and\n"
         "stores the same bits: the exit code is 1 if two CONFIGs differ. 'illum s' is the\n"
         "time of emission, tracing and storing together, as in the paper on hierarchies of\n"
-        "octrees; the build is apart.",
+        "octrees; the build and the irradiance are apart.",
     .flags = flags,
     .flag_count = sizeof flags / sizeof flags[0],
     .run = run,

@@ -137,7 +137,7 @@ bool accel_irradiance_paths(const accel_photons *photons, const accel_photon_run
                             double *irradiance, accel_query *query, accel_error *error);
 
 /* A radius whose disc is crossed by about `paths` paths, as if all of them hit the scene's surface
- * evenly. */
+ * evenly; at most a twentieth of the diagonal of the scene's box. */
 double accel_irradiance_radius(const accel_photons *photons, const accel_scene *scene,
                                double paths);
 

@@ -160,6 +160,13 @@ bool accel_irradiance_paths(const accel_photons *photons, const accel_photon_run
 
 double accel_irradiance_radius(const accel_photons *photons, const accel_scene *scene, double paths)
 {
+    accel_box box;
+    double size[3];
+    accel_scene_box(scene, &box);
+    vector_subtract(size, box.hi, box.lo);
+    const double most = 0.05 * sqrt(vector_dot(size, size));
     const double area = accel_scene_area(scene);
-    return photons->count == 0 ? 1.0 : sqrt(paths * area / (acos(-1.0) * (double)photons->count));
+    return photons->count == 0
+               ? most
+               : fmin(most, sqrt(paths * area / (acos(-1.0) * (double)photons->count)));
 }

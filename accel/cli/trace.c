@@ -4,6 +4,7 @@
  */
 #include "trace.h"
 
+#include "camera_argument.h"
 #include "commands.h"
 #include "crew.h"
 #include "words.h"
@@ -37,70 +38,6 @@ static bool ends_with(const char *path, const char *extension)
     return length > ending && strcmp(path + length - ending, extension) == 0;
 }
 
-/* Reads three numbers that are separated by commas, up to `length` bytes. */
-static bool read_point(const char *text, size_t length, double out[3])
-{
-    for (int k = 0; k < 3; k++) {
-        const char *comma = memchr(text, ',', length);
-        const size_t part = k == 2 || comma == NULL ? length : (size_t)(comma - text);
-        if ((k < 2 && comma == NULL) || !accel_read_number(text, part, &out[k])) {
-            return false;
-        }
-        text += part + (k < 2);
-        length -= part + (k < 2);
-    }
-    return true;
-}
-
-static bool read_camera(const char *text, double eye[3], double at[3], double *fov)
-{
-    const char *first = strchr(text, ':');
-    const char *second = first == NULL ? NULL : strchr(first + 1, ':');
-    return second != NULL && read_point(text, (size_t)(first - text), eye) &&
-           read_point(first + 1, (size_t)(second - first - 1), at) &&
-           accel_read_number(second + 1, strlen(second + 1), fov);
-}
-
-static bool read_size(const char *text, uint32_t *width, uint32_t *height)
-{
-    double w, h;
-    const char *x = strchr(text, 'x');
-    if (x == NULL || !accel_read_number(text, (size_t)(x - text), &w) ||
-        !accel_read_number(x + 1, strlen(x + 1), &h) || w != floor(w) || h != floor(h) || w < 1.0 ||
-        h < 1.0 || w > 65536.0 || h > 65536.0 || w * h > ACCEL_MOST_PIXELS) {
-        return false;
-    }
-    *width = (uint32_t)w;
-    *height = (uint32_t)h;
-    return true;
-}
-
-static bool make_camera(const accel_command *command, const request *request,
-                        const accel_scene *scene, accel_camera *camera)
-{
-    uint32_t width = 640, height = 480;
-    double eye[3], at[3], fov = 40.0;
-    if (request->size != NULL && !read_size(request->size, &width, &height)) {
-        accel_complain(command,
-                       "--size is '%.60s'; allowed is WxH, up to 65536 each and 2^26 pixels; "
-                       "nothing was written",
-                       request->size);
-        return false;
-    }
-    accel_box box;
-    accel_scene_box(scene, &box);
-    accel_camera_frame(&box, eye, at);
-    if ((request->camera != NULL && !read_camera(request->camera, eye, at, &fov)) ||
-        !accel_camera_make(camera, eye, at, fov, width, height)) {
-        accel_complain(command,
-                       "camera '%.100s' is no camera; allowed is ex,ey,ez:ax,ay,az:degrees, two "
-                       "points that differ and degrees between 0 and 180; nothing was written",
-                       request->camera == NULL ? "(default)" : request->camera);
-        return false;
-    }
-    return true;
-}
-
 static bool write_image(accel_tracing *tracing, const accel_camera *camera, accel_output *output,
                         accel_error *error)
 {
@@ -127,7 +64,8 @@ static int fill_output(const accel_command *command, const request *request, acc
                        accel_output *output)
 {
     accel_camera camera;
-    if (request->rays == NULL && !make_camera(command, request, tracing->scene, &camera)) {
+    if (request->rays == NULL &&
+        !accel_camera_argument(command, request->size, request->camera, tracing->scene, &camera)) {
         accel_output_abandon(output);
         return ACCEL_EXIT_BAD;
     }

@@ -1,0 +1,17 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * A camera as a user types it: --size WxH and --camera E:A:F.
+ */
+#ifndef ACCEL_CLI_CAMERA_ARGUMENT_H
+#define ACCEL_CLI_CAMERA_ARGUMENT_H
+
+#include "camera.h"
+#include "options.h"
+#include "scene.h"
+
+/* Makes the camera; NULL stands for 640x480, and for one that frames the scene with 40 degrees.
+ * Otherwise complains and returns false. */
+bool accel_camera_argument(const accel_command *command, const char *size, const char *text,
+                           const accel_scene *scene, accel_camera *camera);
+
+#endif

@@ -1,0 +1,215 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * accel photons: photons and irradiance through each CONFIG, and that all agree in every bit.
+ */
+#include "photons_request.h"
+
+#include "camera_argument.h"
+#include "photons_view.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* One run of the command. */
+typedef struct session {
+    const accel_command *command;
+    accel_photon_request *request;
+    accel_loaded loaded;
+    accel_progress progress;
+    accel_camera camera;
+    accel_view view;    /* made with the first structure */
+    double *irradiance; /* of its receivers through the first CONFIG */
+    double *again;      /* through another one */
+    uint64_t hash;      /* of what the first CONFIG stored */
+    bool different;     /* a CONFIG disagreed */
+} session;
+
+static void show_photons(void *progress, double done)
+{
+    accel_progress_show(progress, "photons", done);
+}
+
+static void print_head(const session *s)
+{
+    const accel_photon_run *run = &s->request->run;
+    printf("%s: %" PRIu32 " lights, %" PRIu32 " photons for each, reflectance %g, seed %" PRIu64
+           ", %u threads\n",
+           s->request->scene, run->lights.count, run->photons, run->reflectance, run->seed,
+           run->threads);
+    printf("%-36s %9s %9s %10s %10s %7s %7s %7s  %s\n", "structure", "build s", "illum s", "rays",
+           "hits", "nodes/r", "tests/r", "ns/ray", "hash of the hits");
+}
+
+static void print_row(const char *config, const accel *a, const accel_photons *photons,
+                      uint64_t hash)
+{
+    accel_info info;
+    accel_describe(a, &info);
+    const double rays = (double)photons->rays;
+    printf("%-36s %9.3f %9.3f %10" PRIu64 " %10zu %7.2f %7.2f %7.0f  %016" PRIx64 "\n", config,
+           info.seconds, photons->seconds, photons->rays, photons->count,
+           (double)photons->query.nodes / rays, (double)photons->query.tests / rays,
+           1e9 * photons->seconds / rays, hash);
+    fflush(stdout);
+}
+
+static bool disagree(session *s, const char *config, const char *what)
+{
+    s->different = true;
+    printf("DIFFERENT: %s has other %s than %s\n", config, what, s->request->configs.items[0]);
+    return true;
+}
+
+/* The receivers, once, through the first structure: any other gives the same. */
+static bool prepare_view(session *s, const accel *a, const accel_photons *photons)
+{
+    if (s->irradiance != NULL) {
+        return true;
+    }
+    if (s->request->radius == 0.0) {
+        s->request->radius = accel_irradiance_radius(photons, &s->loaded.scene, 100.0);
+    }
+    if (!accel_view_make(&s->view, a, &s->loaded.scene, &s->camera)) {
+        return false;
+    }
+    s->irradiance = malloc((s->view.count + 1) * sizeof(double));
+    s->again = malloc((s->view.count + 1) * sizeof(double));
+    return s->irradiance != NULL && s->again != NULL;
+}
+
+static bool estimate(const session *s, const accel_photons *photons, const char *config,
+                     double *irradiance, accel_error *error)
+{
+    const accel_photon_request *r = s->request;
+    const accel_receivers receivers = {s->view.receivers, s->view.count};
+    accel_query query = {.user = NULL};
+    snprintf(error->text, sizeof error->text, "out of memory for the irradiance");
+    return r->nearest ? accel_irradiance_nearest(photons, &r->run, receivers, r->radius,
+                                                 (uint32_t)r->count, irradiance)
+                      : accel_irradiance_paths(photons, &r->run, receivers, r->radius, config,
+                                               irradiance, &query, error);
+}
+
+static void print_irradiance(const session *s, const double *irradiance, double seconds)
+{
+    double mean = 0.0;
+    for (size_t i = 0; i < s->view.count; i++) {
+        mean += irradiance[i] / (double)s->view.count;
+    }
+    printf("  irradiance by %s, radius %.6g: %zu points, mean %.9g, %.3f s\n",
+           s->request->nearest ? "nearest photons" : "paths", s->request->radius, s->view.count,
+           mean, seconds);
+    fflush(stdout);
+}
+
+static int find_irradiance(session *s, const accel *a, const accel_photons *photons,
+                           const char *config)
+{
+    const bool first = s->irradiance == NULL;
+    accel_error error;
+    if (!prepare_view(s, a, photons)) {
+        return accel_complain(s->command, "out of memory for the picture");
+    }
+    double *irradiance = first ? s->irradiance : s->again;
+    const double start = accel_seconds();
+    const bool fine = estimate(s, photons, config, irradiance, &error);
+    accel_progress_clear(&s->progress);
+    if (!fine) {
+        return accel_complain(s->command, "%s", error.text);
+    }
+    print_irradiance(s, irradiance, accel_seconds() - start);
+    if (memcmp(irradiance, s->irradiance, s->view.count * sizeof *irradiance) != 0) {
+        disagree(s, config, "irradiance");
+    }
+    return ACCEL_EXIT_FINE;
+}
+
+static int illuminate(session *s, const accel *a, const char *config)
+{
+    accel_photons photons;
+    const bool fine = accel_trace_photons(&photons, a, &s->loaded.scene, &s->request->run);
+    accel_progress_clear(&s->progress);
+    if (!fine) {
+        return accel_complain(s->command, "out of memory for the photons");
+    }
+    const uint64_t hash = accel_photons_hash(&photons);
+    print_row(config, a, &photons, hash);
+    if (config == s->request->configs.items[0]) {
+        s->hash = hash;
+    } else if (hash != s->hash) {
+        disagree(s, config, "hits");
+    }
+    const int code =
+        s->request->time_only ? ACCEL_EXIT_FINE : find_irradiance(s, a, &photons, config);
+    accel_photons_free(&photons);
+    return code;
+}
+
+static int illuminate_all(session *s)
+{
+    print_head(s);
+    for (size_t i = 0; i < s->request->configs.count; i++) {
+        const char *config = s->request->configs.items[i];
+        accel *a = accel_open_structure(&s->loaded, config, s->command, &s->progress);
+        if (a == NULL) {
+            return ACCEL_EXIT_BAD;
+        }
+        s->progress.what = config;
+        const int code = illuminate(s, a, config);
+        accel_free(a);
+        if (code != ACCEL_EXIT_FINE) {
+            return code;
+        }
+    }
+    return s->different ? ACCEL_EXIT_DIFFERENT : ACCEL_EXIT_FINE;
+}
+
+/* The file is opened before anything long is computed, and appears whole or not at all. */
+static int illuminate_into_file(session *s)
+{
+    if (s->request->output == NULL) {
+        return illuminate_all(s);
+    }
+    accel_output output;
+    accel_error error;
+    if (!accel_output_open(&output, s->request->output, &error)) {
+        return accel_complain(s->command, "%s", error.text);
+    }
+    const int code = illuminate_all(s);
+    if (code == ACCEL_EXIT_BAD) {
+        accel_output_abandon(&output);
+        return code;
+    }
+    if (!accel_view_write(&s->view, s->irradiance, &output, &error)) {
+        accel_output_abandon(&output);
+        return accel_complain(s->command, "%s", error.text);
+    }
+    return accel_output_commit(&output, &error) ? code
+                                                : accel_complain(s->command, "%s", error.text);
+}
+
+int accel_photons_fulfil(const accel_command *command, accel_photon_request *r)
+{
+    session s = {.command = command, .request = r, .progress = accel_progress_start(r->quiet)};
+    if (!accel_open_scene(&s.loaded, r->scene, command, &s.progress)) {
+        return ACCEL_EXIT_BAD;
+    }
+    if (r->light_count == 0) {
+        r->light_count = accel_scene_lights(r->scene, &s.loaded.scene, r->lights);
+    }
+    r->run.lights = (accel_lights){r->lights, r->light_count};
+    r->run.progress = show_photons;
+    r->run.user = &s.progress;
+    const char *size = r->size == NULL ? "320x240" : r->size;
+    int code = ACCEL_EXIT_BAD;
+    if (accel_camera_argument(command, size, r->camera, &s.loaded.scene, &s.camera)) {
+        code = illuminate_into_file(&s);
+    }
+    accel_view_free(&s.view);
+    free(s.irradiance);
+    free(s.again);
+    accel_unload_scene(&s.loaded);
+    return code;
+}
