@@ -245,10 +245,12 @@ static double predict(const struct build *build, const struct candidate *c)
 static bool try_kind(struct build *build, const struct sample *s, struct candidate *c)
 {
     accel *a;
+    struct memory *m = &build->a->memory;
     const accel_hooks hooks = {.user = build->hooks->user, .resize = build->hooks->resize};
     if (accel_build(&a, &s->scene, c->kind->info.name, &hooks, build->error) != ACCEL_OK)
         return false;
     fly_pilot(a, &s->box, c);
+    m->peak = m->bytes + a->memory.peak > m->peak ? m->bytes + a->memory.peak : m->peak;
     accel_free(a);
     c->seconds = predict(build, c);
     return true;
