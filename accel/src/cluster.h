@@ -20,15 +20,16 @@ struct cluster {
 };
 
 struct clustering {
-    struct ids order; /* the bounded ids, grouped by cluster */
-    ARRAY_OF(struct cluster) clusters; /* by size class, then by box, whatever the ids' order */
+    struct ids order;                  /* the bounded ids, grouped by cluster */
+    ARRAY_OF(struct cluster) clusters; /* by size class, then along a space-filling curve */
     uint32_t size_classes;             /* that hold something */
 };
 
 /* What the user may decide. */
 struct cluster_rule {
-    double connectivity; /* gap that joins two primitives, in sizes of their class; NAN: by cost */
-    double octaves;      /* factors of two that a size class may span */
+    double connectivity; /* gap that joins two primitives, in sizes of the largest of their class;
+                            NAN: by cost */
+    double octaves;      /* factors of two in size that a class may span; NAN: no limit */
 };
 
 /* Finds the clusters of the bounded primitives, of which there is at least one. Progress of the
@@ -48,8 +49,10 @@ void cluster_free(struct memory *m, struct clustering *c);
     }
 #define CLUSTER_OCTAVES_OPTION                                                                     \
     {                                                                                              \
-        .key = "octaves", .meaning = "factors of two in size that one size class may span",        \
-        .min = 1, .max = 4096, .standard = 3, .whole = true                                        \
+        .key = "octaves",                                                                          \
+        .meaning =                                                                                 \
+            "factors of two in size that a size class may span; auto: up to a gap in sizes",       \
+        .min = 1, .max = 64, .standard = NAN, .whole = true                                        \
     }
 
 #endif

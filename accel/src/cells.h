@@ -1,0 +1,123 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * A map from the cells of a grid to numbers: what finds neighbours in linear time. Only cells that
+ * hold something are stored.
+ *
+ * The grid lies over a scene in units of its frame: the scene's box moved to the origin and scaled
+ * by a power of two so that its longest side is in [1/2, 1). Grids of all octaves share one map: a
+ * cell of octave o has the side 2^-o.
+ *
+ * Encoding: open addressing with linear probing, at most half full; keys hold class, octave and the
+ * three indices.
+ */
+#ifndef ACCEL_CELLS_H
+#define ACCEL_CELLS_H
+
+#include <string.h>
+
+#include "box.h"
+#include "memory.h"
+
+/* Octaves 0 .. CELLS_OCTAVES - 1: 18 bits for an index, 5 for an octave, 5 for a class. The finest
+ * cells are 2^-18 of the scene, 4e-6; what is smaller counts as that large. */
+enum { CELLS_OCTAVES = 19 };
+
+/* Where the scene lies. */
+struct frame {
+    double lo[3]; /* its box's low corner */
+    double scale; /* a power of two */
+};
+
+static inline struct frame frame_of(const accel_box *scene)
+{
+    double side = 0.0;
+    int exponent;
+    for (int k = 0; k < 3; k++)
+        side = fmax(side, scene->hi[k] - scene->lo[k]);
+    frexp(side, &exponent);
+    /* A scene smaller than 2^-1000 would need a scale beyond double's range. */
+    const double scale = ldexp(1.0, exponent < -1000 ? 1000 : -exponent);
+    return (struct frame){{scene->lo[0], scene->lo[1], scene->lo[2]}, scale};
+}
+
+/* A box in units of the frame: inside [0, 1). */
+static inline accel_box frame_box(const struct frame *f, const accel_box *b)
+{
+    accel_box unit;
+    for (int k = 0; k < 3; k++) {
+        unit.lo[k] = (b->lo[k] - f->lo[k]) * f->scale;
+        unit.hi[k] = (b->hi[k] - f->lo[k]) * f->scale;
+    }
+    return unit;
+}
+
+/* The finest octave whose cells are larger than a size in 0 .. 1. */
+static inline uint32_t octave_of(double size)
+{
+    uint64_t bits;
+    memcpy(&bits, &size, sizeof bits);
+    const int octave = 1022 - (int)(bits >> 52);
+    return octave < 0 ? 0 : octave < CELLS_OCTAVES ? (uint32_t)octave : CELLS_OCTAVES - 1;
+}
+
+static inline double box_longest(const accel_box *b)
+{
+    return fmax(fmax(b->hi[0] - b->lo[0], b->hi[1] - b->lo[1]), b->hi[2] - b->lo[2]);
+}
+
+static inline uint64_t cell_key(uint32_t class, uint32_t octave, uint32_t x, uint32_t y, uint32_t z)
+{
+    return (uint64_t) class << 59 | (uint64_t)octave << 54 | (uint64_t)x << 36 | (uint64_t)y << 18 |
+           z;
+}
+
+/* The cells of an octave that a box meets. */
+struct span {
+    uint32_t first[3], last[3];
+};
+
+/* `reach`, in cells, is how far outside of the box a cell may be. */
+static inline struct span span_of(const accel_box *unit, uint32_t octave, double reach)
+{
+    const double cells = (double)(1u << octave);
+    struct span s;
+    for (int k = 0; k < 3; k++) {
+        const double lo = unit->lo[k] * cells - reach, hi = unit->hi[k] * cells + reach;
+        s.first[k] = lo > 0.0 ? (uint32_t)lo : 0;
+        s.last[k] = hi < cells ? (uint32_t)hi : (1u << octave) - 1;
+    }
+    return s;
+}
+
+struct cell_slot {
+    uint64_t key;
+    uint32_t value; /* ACCEL_NONE: the slot is free */
+};
+
+/* Zero is empty. */
+struct cells {
+    struct cell_slot *slot; /* room of them */
+    size_t room, used;      /* room is 0 or a power of two */
+};
+
+static inline struct cell_slot *cells_probe(const struct cells *c, uint64_t key)
+{
+    uint64_t hash = key * 0x9e3779b97f4a7c15u; /* Knuth's multiplicative hashing */
+    size_t at = (size_t)(hash >> 32 ^ hash) & (c->room - 1);
+    while (c->slot[at].value != ACCEL_NONE && c->slot[at].key != key)
+        at = (at + 1) & (c->room - 1);
+    return &c->slot[at];
+}
+
+/* The cell's value, ACCEL_NONE if it is not stored. */
+static inline uint32_t cells_get(const struct cells *c, uint64_t key)
+{
+    return c->room ? cells_probe(c, key)->value : ACCEL_NONE;
+}
+
+/* The cell's slot, for the caller to set its value at once if it is ACCEL_NONE. NULL: no memory. */
+struct cell_slot *cells_at(struct memory *m, struct cells *c, uint64_t key);
+
+void cells_free(struct memory *m, struct cells *c);
+
+#endif

@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "parts.h"
+
+uint32_t parts_root(struct parts *p, uint32_t part)
+{
+    struct cluster *at = p->part.at;
+    while (at[part].first != part) {
+        at[part].first = at[at[part].first].first;
+        part = at[part].first;
+    }
+    return part;
+}
+
+uint32_t parts_join(struct parts *p, uint32_t a, uint32_t b)
+{
+    const uint32_t low = a < b ? a : b, high = a < b ? b : a;
+    struct cluster *root = &p->part.at[low], *other = &p->part.at[high];
+    if (other->count > root->count)
+        root->size_class = other->size_class;
+    box_add(&root->box, &other->box);
+    root->count += other->count;
+    other->first = low;
+    return low;
+}
+
+double parts_cost(const struct parts *p, const accel_box *box, double count)
+{
+    const accel_box unit = frame_box(&p->frame, box);
+    return box_area(&unit) * (p->build->a->prims.test_cost + log2(count));
+}
