@@ -10,11 +10,12 @@
 #include <stdio.h>
 #include <string.h>
 
-extern const struct accel_kind bvh_kind, grid_kind, linear_kind, octree_kind, auto_kind;
+extern const struct accel_kind bvh_kind, grid_kind, hoo_kind, linear_kind, octree_kind, auto_kind;
 
 /* A new kind: its file, and one line here. */
 const accel_kind_info *const kinds[] = {
-    &linear_kind.info, &octree_kind.info, &auto_kind.info, &bvh_kind.info, &grid_kind.info, NULL,
+    &linear_kind.info, &octree_kind.info, &hoo_kind.info, &auto_kind.info,
+    &bvh_kind.info,    &grid_kind.info,   NULL,
 };
 
 const accel_kind_info *const *accel_kinds(size_t *count)

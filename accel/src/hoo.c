@@ -1,0 +1,236 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * hoo: the hierarchy of octrees of Revelles, Aguilera, Aguado, Lastra, Garcia and Montes, "A
+ * Spatial Representation for Ray-Scene Intersection Test Improvement in Complex Scenes": clusters
+ * (cluster.h), an octree for each (octree.h), neighbours joined pairwise into a balanced binary
+ * tree (pairing.h). The tree is walked nearest child first; clusters may overlap, so the walk goes
+ * on until all that is left begins after the best hit.
+ *
+ * A cluster of few primitives is a list: its octree's root is a leaf. Where the scene is one
+ * cluster, there is no tree above, and hoo is an octree over the scene's tight box.
+ *
+ * Invariant: every bounded primitive is in exactly one cluster; a cluster's box contains its padded
+ * boxes, a node's boxes contain the clusters below.
+ *
+ * Cost: as an octree, without the empty space between clusters and without cells as small as one
+ * cluster needs in all the others. Bad at: scenes that are one cluster gain nothing.
+ */
+#include "cluster.h"
+#include "octree.h"
+#include "pairing.h"
+
+#include <stdlib.h>
+
+struct hoo_kind {
+    accel base;
+    struct clustering clustering;
+    ARRAY_OF(struct octree) trees; /* by cluster */
+    struct octree_pool pool;       /* of all */
+    struct boxtree top;            /* over the clusters; no nodes if there is but one */
+};
+
+enum { FORM, LEAF, DEPTH, CONNECTIVITY, OCTAVES };
+
+static const char *const forms[] = {"classic", NULL};
+
+static const accel_option options[] = {
+    [FORM] = {.key = "form", .meaning = "how cells are laid out", .words = forms},
+    [LEAF] = OCTREE_LEAF_OPTION,
+    [DEPTH] = OCTREE_DEPTH_OPTION,
+    [CONNECTIVITY] = CLUSTER_CONNECTIVITY_OPTION,
+    [OCTAVES] = CLUSTER_OCTAVES_OPTION,
+};
+
+static bool find_clusters(struct build *build, struct hoo_kind *h)
+{
+    const struct cluster_rule rule = {h->base.option[CONNECTIVITY], h->base.option[OCTAVES]};
+    build_phase(build, "clusters");
+    return cluster_scene(build, &h->clustering, rule, 0.0, 1.0);
+}
+
+static bool build_octrees(struct build *build, struct hoo_kind *h)
+{
+    const struct clustering *c = &h->clustering;
+    const struct octree_rule rule = {h->base.option[LEAF], h->base.option[DEPTH]};
+    build_phase(build, "octrees");
+    if (!array_extend(&h->base.memory, &h->trees, c->clusters.count))
+        return build_no_memory(build);
+    for (size_t i = 0; i < c->clusters.count; i++) {
+        const struct cluster *cluster = &c->clusters.at[i];
+        const double from = cluster->first / (double)c->order.count;
+        const double to = (cluster->first + (double)cluster->count) / (double)c->order.count;
+        if (!octree_build(build, &h->pool, &h->trees.at[i], c->order.at + cluster->first,
+                          cluster->count, &cluster->box, rule, from, to))
+            return false;
+    }
+    octree_pool_trim(&h->base.memory, &h->pool);
+    return true;
+}
+
+static const accel_box *cluster_box(const void *user, size_t i)
+{
+    const struct clustering *c = user;
+    return &c->clusters.at[i].box;
+}
+
+static bool build_top(struct build *build, struct hoo_kind *h)
+{
+    const size_t count = h->clustering.clusters.count;
+    if (count == 1) {
+        build_note(build, "one cluster: no tree above its octree");
+        return true;
+    }
+    build_phase(build, "tree");
+    return pair_boxes(build, &h->top, count, cluster_box, &h->clustering);
+}
+
+static void describe(struct build *build, const struct hoo_kind *h)
+{
+    accel_info *info = &build->a->info;
+    const size_t clusters = h->trees.count;
+    size_t lists = 0;
+    for (size_t i = 0; i < clusters; i++)
+        lists += h->trees.at[i].root.count > 0;
+    if (lists > 0)
+        build_note(build, "%zu of %zu clusters are short: lists, no octree", lists, clusters);
+    info->nodes = h->top.nodes.count + h->pool.nodes.count;
+    info->leaves = h->pool.cells.count + clusters - h->pool.nodes.count;
+    info->references = h->pool.refs.count;
+    info->depth += h->top.depth;
+}
+
+static bool build(struct build *build)
+{
+    struct hoo_kind *h = (struct hoo_kind *)build->a;
+    if (!find_clusters(build, h) || !build_octrees(build, h) || !build_top(build, h))
+        return false;
+    describe(build, h);
+    return true;
+}
+
+static void visit(const accel *a, struct query *q, struct boxtree_child leaf)
+{
+    const struct hoo_kind *h = (const struct hoo_kind *)a;
+    octree_walk(&h->pool, &h->trees.at[leaf.first], q);
+}
+
+static void walk(const accel *a, struct query *q)
+{
+    const struct hoo_kind *h = (const struct hoo_kind *)a;
+    if (h->trees.count == 1)
+        octree_walk(&h->pool, &h->trees.at[0], q);
+    else
+        boxtree_walk(a, h->top.nodes.at, q, visit);
+}
+
+/* ---------------------------------------------------------------------- validate ---- */
+
+static bool broken(accel_error *error, const char *what, size_t number)
+{
+    error_set(error, ACCEL_BROKEN, "hoo: %s %zu", what, number);
+    return false;
+}
+
+/* Marks a cluster's ids in seen[], by id. */
+static bool check_cluster(const struct hoo_kind *h, size_t i, bool *seen, accel_error *error)
+{
+    const struct clustering *c = &h->clustering;
+    const struct cluster *cluster = &c->clusters.at[i];
+    if (cluster->count == 0 || (size_t)cluster->first + cluster->count > c->order.count)
+        return broken(error, "no ids, or too many, in cluster", i);
+    const uint32_t *ids = c->order.at + cluster->first;
+    for (size_t j = 0; j < cluster->count; j++) {
+        if (ids[j] >= h->base.prims.count || seen[ids[j]] || (j > 0 && ids[j - 1] >= ids[j]))
+            return broken(error, "a wrong, repeated or misplaced id in cluster", i);
+        seen[ids[j]] = true;
+    }
+    return octree_validate(&h->base, &h->pool, &h->trees.at[i], ids, cluster->count, error);
+}
+
+/* Every bounded id is in exactly one cluster, and every octree is right. */
+static bool check_clusters(const struct hoo_kind *h, accel_error *error)
+{
+    const struct ids *bounded = &h->base.prims.bounded;
+    bool *seen = calloc(h->base.prims.count, sizeof *seen);
+    bool fine = true;
+    if (!seen) {
+        error_set(error, ACCEL_NO_MEMORY, "validate: no memory for %u marks", h->base.prims.count);
+        return false;
+    }
+    for (size_t i = 0; fine && i < h->trees.count; i++)
+        fine = check_cluster(h, i, seen, error);
+    for (size_t i = 0; fine && i < bounded->count; i++)
+        fine = seen[bounded->at[i]] || broken(error, "no cluster holds id", bounded->at[i]);
+    free(seen);
+    return fine && (h->clustering.order.count == bounded->count ||
+                    broken(error, "ids in clusters:", h->clustering.order.count));
+}
+
+/* Checks a child of the top tree against the box that its parent keeps of it, and marks the
+ * clusters below it in seen[]. */
+static bool check_child(const struct hoo_kind *h, const accel_box *box, struct boxtree_child child,
+                        uint32_t depth, bool *seen, accel_error *error)
+{
+    if (depth > h->top.depth || depth > BOXTREE_MAX_DEPTH)
+        return broken(error, "the top tree is too deep, at", depth);
+    if (child.count > 0) {
+        if (child.first >= h->trees.count || seen[child.first] ||
+            !box_contains(box, &h->trees.at[child.first].box))
+            return broken(error, "the top tree is wrong about cluster", child.first);
+        return seen[child.first] = true;
+    }
+    if (child.first >= h->top.nodes.count)
+        return broken(error, "the top tree has no node", child.first);
+    const struct boxtree_node *node = &h->top.nodes.at[child.first];
+    for (int side = 0; side < 2; side++)
+        if (!box_contains(box, &node->box[side]) ||
+            !check_child(h, &node->box[side], node->child[side], depth + 1, seen, error))
+            return broken(error, "wrong below node of the top tree", child.first);
+    return true;
+}
+
+/* Every cluster is in the top tree exactly once. */
+static bool check_top(const struct hoo_kind *h, accel_error *error)
+{
+    const double inf = (double)INFINITY;
+    const accel_box all = {{-inf, -inf, -inf}, {inf, inf, inf}};
+    if (h->trees.count == 1)
+        return h->top.nodes.count == 0 || broken(error, "nodes over one cluster:", 1);
+    bool *seen = calloc(h->trees.count, sizeof *seen);
+    if (!seen) {
+        error_set(error, ACCEL_NO_MEMORY, "validate: no memory for %zu marks", h->trees.count);
+        return false;
+    }
+    bool fine = check_child(h, &all, (struct boxtree_child){0, 0}, 0, seen, error);
+    for (size_t i = 0; fine && i < h->trees.count; i++)
+        fine = seen[i] || broken(error, "the top tree misses cluster", i);
+    free(seen);
+    return fine;
+}
+
+static bool validate(const accel *a, accel_error *error)
+{
+    const struct hoo_kind *h = (const struct hoo_kind *)a;
+    return check_clusters(h, error) && check_top(h, error);
+}
+
+static void release(accel *a)
+{
+    struct hoo_kind *h = (struct hoo_kind *)a;
+    cluster_free(&a->memory, &h->clustering);
+    octree_pool_free(&a->memory, &h->pool);
+    array_free(&a->memory, &h->trees);
+    array_free(&a->memory, &h->top.nodes);
+}
+
+const struct accel_kind hoo_kind = {
+    .info = {.name = "hoo",
+             .summary = "hierarchy of octrees: clusters, an octree for each, a binary tree on top",
+             .options = options,
+             .option_count = sizeof options / sizeof *options},
+    .size = sizeof(struct hoo_kind),
+    .build = build,
+    .walk = walk,
+    .validate = validate,
+    .release = release,
+};
