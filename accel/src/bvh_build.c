@@ -353,8 +353,8 @@ static bool join(struct grower *g, const struct range *r, size_t node, const str
         return make_leaf(g, r, out);
     }
     const uint32_t height = half[0].height > half[1].height ? half[0].height : half[1].height;
-    g->bvh->nodes.at[node] =
-        (struct boxtree_node){{half[0].box, half[1].box}, {half[0].child, half[1].child}};
+    for (int i = 0; i < 2; i++)
+        boxtree_set(&g->bvh->nodes.at[node], i, &half[i].box, half[i].child);
     *out = (struct subtree){{(uint32_t)node, 0}, r->box, cost, height + 1};
     return true;
 }
