@@ -120,9 +120,10 @@ typedef void boxtree_visit(const accel *a, struct query *q, struct boxtree_child
 
 /* The walk of either sort of ray. Inlined with `visit` and `common` known, so a leaf costs no
  * indirect call. */
-__attribute__((always_inline)) static inline void
-boxtree_walk_as(const accel *a, const struct boxtree_node *nodes, struct query *q,
-                boxtree_visit *visit, bool common)
+__attribute__((always_inline)) static inline void boxtree_walk_as(const accel *a,
+                                                                  const struct boxtree_node *nodes,
+                                                                  struct query *q,
+                                                                  boxtree_visit *visit, bool common)
 {
     struct {
         double begin;

@@ -19,6 +19,11 @@ static inline pair pair_both(double x)
     return _mm_set1_pd(x);
 }
 
+static inline pair pair_of(double x, double y)
+{
+    return _mm_set_pd(y, x);
+}
+
 static inline pair pair_load(const double at[2])
 {
     return _mm_loadu_pd(at);
@@ -55,6 +60,12 @@ static inline uint32_t pair_at_most(pair p, pair q)
     return (uint32_t)_mm_movemask_pd(_mm_cmple_pd(p, q));
 }
 
+/* Bit i: p[i] < q[i]. */
+static inline uint32_t pair_below(pair p, pair q)
+{
+    return (uint32_t)_mm_movemask_pd(_mm_cmplt_pd(p, q));
+}
+
 #else
 
 typedef struct {
@@ -64,6 +75,11 @@ typedef struct {
 static inline pair pair_both(double x)
 {
     return (pair){{x, x}};
+}
+
+static inline pair pair_of(double x, double y)
+{
+    return (pair){{x, y}};
 }
 
 static inline pair pair_load(const double at[2])
@@ -101,6 +117,12 @@ static inline pair pair_min(pair p, pair q)
 static inline uint32_t pair_at_most(pair p, pair q)
 {
     return (uint32_t)(p.at[0] <= q.at[0]) | (uint32_t)(p.at[1] <= q.at[1]) << 1;
+}
+
+/* Bit i: p[i] < q[i]. */
+static inline uint32_t pair_below(pair p, pair q)
+{
+    return (uint32_t)(p.at[0] < q.at[0]) | (uint32_t)(p.at[1] < q.at[1]) << 1;
 }
 
 #endif
