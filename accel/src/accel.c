@@ -137,7 +137,8 @@ static accel *allocate(const struct accel_kind *kind, const accel_hooks *hooks, 
     struct memory m = {hooks->resize ? hooks->resize : memory_system, hooks->user, 0, 0, 0};
     accel *a = memory_resize(&m, NULL, 0, kind->size);
     if (!a) {
-        error_set(error, ACCEL_NO_MEMORY, "build %s: no memory for %zu bytes; nothing was built",
+        error_set(error, ACCEL_NO_MEMORY,
+                  "build %s: no memory for %zu bytes in phase 'start'; nothing was built",
                   kind->info.name, kind->size);
         return NULL;
     }
