@@ -161,25 +161,63 @@ static uint64_t binary_count(const ply *p, const char *at, int size)
     return count;
 }
 
-static bool skip_property(const ply *p, const property *made, rest *r)
+/* The next line that holds a word; '#' begins a comment where `comments` says so. */
+static bool take_body_line(rest *r, rest *line, bool comments)
 {
-    uint64_t count = 1;
-    uint64_t ignored;
-    if (p->text) {
-        bool fine = made->list_size == 0 || take_word(r, &count);
-        for (; fine && count > 0; count--) {
-            fine = take_word(r, &ignored);
+    while (r->at < r->end) {
+        const char *stop = memchr(r->at, '\n', (size_t)(r->end - r->at));
+        *line = (rest){r->at, stop == NULL ? r->end : stop};
+        r->at = stop == NULL ? r->end : stop + 1;
+        while (line->at < line->end && isspace((unsigned char)*line->at)) {
+            line->at++;
         }
-        return fine;
+        if (line->at < line->end && !(comments && *line->at == '#')) {
+            return true;
+        }
     }
-    if (made->list_size != 0) {
-        const char *at = r->at;
-        if (!skip(r, (uint64_t)made->list_size)) {
+    return false;
+}
+
+/* Takes the words of one property in text. */
+static bool skip_words(const property *made, rest *line)
+{
+    uint64_t count = 1, ignored;
+    bool fine = made->list_size == 0 || take_word(line, &count);
+    for (; fine && count > 0; count--) {
+        fine = take_word(line, &ignored);
+    }
+    return fine;
+}
+
+/* One instance of an element is one line with just its words. */
+static bool skip_text(const element *e, rest *r)
+{
+    rest line;
+    uint64_t ignored;
+    bool fine = take_body_line(r, &line, false);
+    for (int k = 0; fine && k < e->property_count; k++) {
+        fine = skip_words(&e->properties[k], &line);
+    }
+    return fine && !take_word(&line, &ignored);
+}
+
+static bool skip_binary(const ply *p, const element *e, rest *r)
+{
+    for (int k = 0; k < e->property_count; k++) {
+        const property *made = &e->properties[k];
+        uint64_t count = 1;
+        if (made->list_size != 0) {
+            const char *at = r->at;
+            if (!skip(r, (uint64_t)made->list_size)) {
+                return false;
+            }
+            count = binary_count(p, at, made->list_size);
+        }
+        if (count > UINT32_MAX || !skip(r, count * (uint64_t)made->size)) {
             return false;
         }
-        count = binary_count(p, at, made->list_size);
     }
-    return count <= UINT32_MAX && skip(r, count * (uint64_t)made->size);
+    return true;
 }
 
 /* The number of instances of `e` that are there. */
@@ -189,10 +227,8 @@ static uint64_t skip_element(const ply *p, const element *e, rest *r)
         return e->count;
     }
     for (uint64_t i = 0; i < e->count; i++) {
-        for (int k = 0; k < e->property_count; k++) {
-            if (!skip_property(p, &e->properties[k], r)) {
-                return i;
-            }
+        if (!(p->text ? skip_text(e, r) : skip_binary(p, e, r))) {
+            return i;
         }
     }
     return e->count;
@@ -246,16 +282,15 @@ static const char *check_off(rest r, char text[200])
         !take_off_word(&r, &ignored)) {
         return "its OFF header has no counts: is it truncated";
     }
-    bool fine = vertices <= UINT32_MAX && faces <= UINT32_MAX;
-    for (uint64_t i = 0; fine && i < 3 * vertices; i++) {
-        fine = take_off_word(&r, &ignored);
+    bool fine = true;
+    rest line;
+    for (uint64_t i = 0; fine && i < vertices; i++) {
+        fine = take_body_line(&r, &line, true) && take_word(&line, &ignored) &&
+               take_word(&line, &ignored) && take_word(&line, &ignored);
     }
     for (uint64_t i = 0; fine && i < faces; i++) {
-        uint64_t corners = 0;
-        fine = take_off_word(&r, &corners);
-        for (; fine && corners > 0; corners--) {
-            fine = take_off_word(&r, &ignored);
-        }
+        const property corners = {.list_size = 1};
+        fine = take_body_line(&r, &line, true) && skip_words(&corners, &line);
     }
     snprintf(text, 200,
              "its OFF header promises %llu vertices and %llu faces, but the file ends "
