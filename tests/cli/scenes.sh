@@ -23,6 +23,11 @@ done
 [ "$(cut -d' ' -f1-3 text.ply.hits | tr '\n' ',')" = "0 0 1,0 1 1,0 2 1,0 3 $(
     cut -d' ' -f3 <(sed -n 4p text.ply.hits)),miss," ] || fail "hits are $(cat text.ply.hits)"
 
+# Comments and empty lines within an OFF file are no faces.
+sed '/^3 0 1 3/i # four faces\n\n   # of three corners' text.off | sed 's/^3 0 2 3/& # the third/' >remarks.off
+expect 0 trace remarks.off --rays rays.txt -o remarks.hits
+cmp text.ply.hits remarks.hits || fail "comments change an OFF file"
+
 # A polygon is cut in place; lines and points are left out and counted.
 printf 'v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 2 2\nf 1 2 3 4\nl 1 2\nf 1 2 5\n' >mixed.obj
 expect 0 info mixed.obj -a linear
