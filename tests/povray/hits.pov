@@ -68,7 +68,8 @@ global_settings { assumed_gamma 1 }
 #declare H = tan(Fov * pi / 360);
 
 // What POV-Ray takes for a hit: MIN_ISECT_DEPTH to MAX_DISTANCE, in lengths of the direction here.
-#macro Trace_Ray(From, Along)
+#macro Trace_Ray(Start, Along)
+    #local From = Start;
     #declare Normal = <0, 0, 0>;
     #declare Point = trace(All, From, Along, Normal);
     #write (Rays, vstr(3, From, " ", 0, 20), " ", vstr(3, Along, " ", 0, 20), " ",
