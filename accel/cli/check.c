@@ -179,7 +179,8 @@ static int build_and_check(accel_check *check, const request *request)
     for (size_t i = 0; fine && i < request->configs.count; i++) {
         fine = add_suspect(check, request->configs.items[i], request->asked);
     }
-    if (!fine) {
+    /* where no other kind is compiled in, linear's own queries are compared with each other */
+    if (!fine || (check->suspect_count == 0 && !add_suspect(check, "linear", true))) {
         return ACCEL_EXIT_BAD;
     }
     return request->ray != NULL ? accel_check_replay(check, &ray) : check_rays(check, request);

@@ -74,6 +74,6 @@ complains "holds no triangle" info lines.obj
 complains "No such file or directory" check missing.ply
 complains "No such file or directory" trace missing.ply -o x.exr
 complains "cannot be read" trace count.ply -o x.exr
-complains "did you mean" check one -a octre
-complains "did you mean" trace one -o x.exr -a octre
+complains "Nothing was built" check one -a nokind
+complains "Nothing was built" trace one -o x.exr -a nokind
 finish

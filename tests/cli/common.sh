@@ -8,6 +8,11 @@ trap 'rm -rf "$work"' EXIT
 cd "$work"
 failures=0
 
+# A kind that this build has: not linear where there is another one.
+kinds=$("$accel" kinds | sed '/^Built-in/,$d' | grep -oE '^[a-z]+ ' | tr -d ' ')
+kind=$(grep -vxE 'linear|auto' <<<"$kinds" | head -n 1 || true)
+kind=${kind:-linear}
+
 fail() {
     echo "FAIL: $*" >&2
     failures=$((failures + 1))

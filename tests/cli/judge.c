@@ -151,7 +151,7 @@ static void equal_scenes_have_no_mismatch(void **state)
     (void)state;
     accel_loaded same;
     load(&same, "cubes:gap=1");
-    run_check(&check, "cubes:gap=1", "octree", &same, RAYS);
+    run_check(&check, "cubes:gap=1", "auto", &same, RAYS);
     assert_int_equal(check.suspects[0].mismatches, 0);
     assert_true(check.suspects[0].first == UINT64_MAX);
     assert_true(check.suspects[0].hits > RAYS / 3);
@@ -184,7 +184,7 @@ static void one_ulp_of_one_vertex_is_seen(void **state)
     load(&moved, "teapots");
     double *vertex = (double *)moved.geometries[9].triangles.vertices + 3 * 20;
     vertex[1] = nextafter(vertex[1], 1.0);
-    run_check(&check, "teapots", "octree", &moved, RAYS);
+    run_check(&check, "teapots", "auto", &moved, RAYS);
     expect_mismatch(RAYS / 10);
     accel_unload_scene(&moved);
 }
@@ -195,7 +195,7 @@ static void one_missing_triangle_is_seen(void **state)
     accel_loaded fewer;
     load(&fewer, "cubes:gap=1");
     fewer.geometries[0].triangles.count--;
-    run_check(&check, "cubes:gap=1", "octree", &fewer, RAYS);
+    run_check(&check, "cubes:gap=1", "auto", &fewer, RAYS);
     expect_mismatch(RAYS / 10);
     accel_unload_scene(&fewer);
 }
@@ -208,7 +208,7 @@ static void another_order_of_ties_is_seen(void **state)
     uint32_t *indices = (uint32_t *)swapped.geometries[0].triangles.indices;
     /* the judge finds no first triangle, so that the second one wins */
     indices[1] = indices[0];
-    run_check(&check, "same:n=2", "octree", &swapped, RAYS);
+    run_check(&check, "same:n=2", "auto", &swapped, RAYS);
     expect_mismatch(RAYS);
     accel_unload_scene(&swapped);
 }
