@@ -62,7 +62,12 @@ static inline uint32_t octave_of(double size)
 
 static inline double box_longest(const accel_box *b)
 {
-    return fmax(fmax(b->hi[0] - b->lo[0], b->hi[1] - b->lo[1]), b->hi[2] - b->lo[2]);
+    double longest = 0.0;
+    for (int k = 0; k < 3; k++) {
+        const double side = b->hi[k] - b->lo[k];
+        longest = side > longest ? side : longest;
+    }
+    return longest;
 }
 
 static inline uint64_t cell_key(uint32_t class, uint32_t octave, uint32_t x, uint32_t y, uint32_t z)
@@ -100,10 +105,15 @@ struct cells {
     size_t room, used;      /* room is 0 or a power of two */
 };
 
+/* Knuth's multiplicative hashing: the upper bits are mixed well. */
+static inline uint32_t cell_hash(uint64_t key)
+{
+    return (uint32_t)((key * 0x9e3779b97f4a7c15u) >> 32);
+}
+
 static inline struct cell_slot *cells_probe(const struct cells *c, uint64_t key)
 {
-    uint64_t hash = key * 0x9e3779b97f4a7c15u; /* Knuth's multiplicative hashing */
-    size_t at = (size_t)(hash >> 32 ^ hash) & (c->room - 1);
+    size_t at = cell_hash(key) & (c->room - 1);
     while (c->slot[at].value != ACCEL_NONE && c->slot[at].key != key)
         at = (at + 1) & (c->room - 1);
     return &c->slot[at];

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Gathering crumbs: components of so few primitives that an octree would not pay, such as loose
- * cubes, leaves of a tree, a cloud of spheres.
+ * Gathering crumbs: parts of so few primitives that an octree would not pay, such as loose cubes,
+ * leaves of a tree, a cloud of spheres.
  *
  * The crumbs of a size class are joined where the gap between them is at most d, for d = about the
  * size of the largest, twice that, and so on; of these partitions the one with the lowest predicted
@@ -49,14 +49,14 @@ static bool collect(struct gatherer *g, uint32_t class)
     g->box = box_empty();
     for (size_t i = 0; i < p->part.count; i++) {
         const struct cluster *part = &p->part.at[i];
-        if (part->first != i || part->size_class != class || part->count >= PARTS_CRUMB)
+        if (part->first != i || part->size_class != class || part->count >= p->crumb)
             continue;
         if (!array_extend(memory_of(g), &g->crumbs, 1))
             return build_no_memory(p->build);
         g->crumbs.at[g->crumbs.count - 1] = (uint32_t)i;
         g->primitives += part->count;
         box_add(&g->box, &part->box);
-        const accel_box unit = frame_box(&p->frame, &part->box);
+        const accel_box unit = frame_box(&p->sizes.frame, &part->box);
         largest = fmax(largest, box_longest(&unit));
     }
     g->octave = octave_of(fmin(4.0 * largest, 0.5));
@@ -83,11 +83,11 @@ static bool enter(struct gatherer *g, struct touching *t)
     const struct parts *p = g->parts;
     const struct touch_rule rule = {.octave = g->octave, .reach = REACH};
     for (size_t i = 0; i < g->crumbs.count; i++) {
-        const accel_box unit = frame_box(&p->frame, &p->part.at[g->crumbs.at[i]].box);
+        const accel_box unit = frame_box(&p->sizes.frame, &p->part.at[g->crumbs.at[i]].box);
         g->now.cluster_of[i] = touching_enter(memory_of(g), t, &unit, rule);
         if (g->now.cluster_of[i] == ACCEL_NONE)
             return build_no_memory(p->build);
-        if (i % 4096 == 0 && !build_tick(p->build, p->now))
+        if (!parts_tick(p, i))
             return false;
     }
     return true;
@@ -116,7 +116,7 @@ static bool sum_up(struct gatherer *g, struct touching *t, uint32_t *number)
 
 static double cost(const struct gatherer *g)
 {
-    const accel_box all = frame_box(&g->parts->frame, &g->box);
+    const accel_box all = frame_box(&g->parts->sizes.frame, &g->box);
     double sum = box_area(&all) * log2((double)g->sum.count);
     for (size_t i = 0; i < g->sum.count; i++)
         sum += parts_cost(g->parts, &g->sum.at[i].box, g->sum.at[i].count);
@@ -190,10 +190,10 @@ static bool gather_class(struct parts *p, uint32_t class)
     return fine;
 }
 
-bool parts_join_crumbs(struct parts *p, uint32_t size_classes)
+bool parts_join_crumbs(struct parts *p)
 {
-    for (uint32_t class = 0; class < size_classes; class ++)
-        if (!gather_class(p, class))
+    for (uint32_t c = 0; c < p->sizes.classes; c++)
+        if (!gather_class(p, c))
             return false;
     return true;
 }

@@ -58,7 +58,7 @@ static bool sort(struct nester *n)
             continue;
         if (!array_extend(memory_of(n), &n->order, 1))
             return build_no_memory(p->build);
-        const accel_box unit = frame_box(&p->frame, &p->part.at[i].box);
+        const accel_box unit = frame_box(&p->sizes.frame, &p->part.at[i].box);
         const uint64_t octave = octave_of(box_longest(&unit));
         n->order.at[n->order.count - 1] =
             (struct keyed){octave << 57 | order_morton(&unit), (uint32_t)i};
@@ -74,7 +74,8 @@ static bool gain_of(const struct parts *p, const struct cluster *a, const struct
     box_add(&both, &b->box);
     *gain = parts_cost(p, &a->box, a->count) + parts_cost(p, &b->box, b->count) -
             parts_cost(p, &both, (double)a->count + b->count);
-    const accel_box unit = frame_box(&p->frame, &both), larger = frame_box(&p->frame, &a->box);
+    const accel_box unit = frame_box(&p->sizes.frame, &both),
+                    larger = frame_box(&p->sizes.frame, &a->box);
     return *gain > 0.0 || (b->count < TINY && box_area(&unit) <= NEARLY * box_area(&larger));
 }
 
@@ -141,7 +142,7 @@ static bool go_round(struct nester *n)
         return false;
     for (size_t i = 0; i < n->order.count; i++) {
         const uint32_t part = n->order.at[i].value;
-        const accel_box unit = frame_box(&p->frame, &p->part.at[part].box);
+        const accel_box unit = frame_box(&p->sizes.frame, &p->part.at[part].box);
         const struct choice best = choose(n, part, &unit);
         if (best.part != ACCEL_NONE) {
             parts_join(p, best.part, part);
@@ -149,7 +150,7 @@ static bool go_round(struct nester *n)
         } else if (!enter(n, part, &unit)) {
             return false;
         }
-        if (i % 4096 == 0 && !build_tick(p->build, p->now))
+        if (!parts_tick(p, i))
             return false;
     }
     return true;

@@ -23,8 +23,29 @@ uint32_t parts_join(struct parts *p, uint32_t a, uint32_t b)
     return low;
 }
 
+bool parts_new(struct parts *p, uint32_t size_class, uint32_t *number)
+{
+    if (!array_extend(&p->build->a->memory, &p->part, 1))
+        return build_no_memory(p->build);
+    *number = (uint32_t)p->part.count - 1;
+    p->part.at[*number] = (struct cluster){box_empty(), *number, 0, size_class};
+    return true;
+}
+
 double parts_cost(const struct parts *p, const accel_box *box, double count)
 {
-    const accel_box unit = frame_box(&p->frame, box);
+    const accel_box unit = frame_box(&p->sizes.frame, box);
     return box_area(&unit) * (p->build->a->prims.test_cost + log2(count));
+}
+
+bool parts_tick(const struct parts *p, size_t i)
+{
+    return i % 4096 != 0 || build_tick(p->build, p->now);
+}
+
+uint32_t parts_unit_count(const struct parts *p, size_t unit)
+{
+    const size_t next =
+        unit + 1 < p->units.count ? p->units.at[unit + 1].first : p->build->a->prims.bounded.count;
+    return (uint32_t)next - p->units.at[unit].first;
 }

@@ -1,18 +1,28 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Clusters in the making: the touching components of a scene, and how some of them are joined.
+ * Clusters in the making: components of a scene's primitives, and how some of them are joined.
  * Union-find over components; a root's entry holds what is true of all that was joined with it.
  */
 #ifndef ACCEL_PARTS_H
 #define ACCEL_PARTS_H
 
-#include "cells.h"
 #include "cluster.h"
+#include "sizes.h"
+
+/* Primitives that follow each other in order of id, which touch and are handled as one: those from
+ * position `first` in the list of bounded ids up to the next unit's. */
+struct unit {
+    accel_box box;
+    uint32_t first;
+    uint32_t home; /* a group, then its part */
+};
 
 struct parts {
     struct build *build;           /* whose memory and progress it is */
-    struct frame frame;            /* of the scene */
+    struct sizes sizes;            /* of the scene */
+    ARRAY_OF(struct unit) units;   /* all primitives */
     ARRAY_OF(struct cluster) part; /* by component; `first` is its union-find parent */
+    uint32_t crumb;                /* parts of fewer primitives are crumbs */
     double now;                    /* progress to report meanwhile */
 };
 
@@ -21,16 +31,29 @@ uint32_t parts_root(struct parts *p, uint32_t part);
 /* Joins the components of two different roots; returns the root of both. */
 uint32_t parts_join(struct parts *p, uint32_t a, uint32_t b);
 
+/* Makes a new part without primitives. False: no memory. */
+bool parts_new(struct parts *p, uint32_t size_class, uint32_t *number);
+
 /* Predicted cost of a cluster in visits of a node, times its surface: every ray that meets its box
  * goes down the levels of its octree and tests at least one primitive. */
 double parts_cost(const struct parts *p, const accel_box *box, double count);
 
-/* A component of fewer primitives than this is a crumb: an octree would not pay for it. More than
- * the 12 triangles of a cube, which the paper's octrees hold in one leaf. */
+/* Reports progress now and then in a loop over i. False if the build is cancelled. */
+bool parts_tick(const struct parts *p, size_t i);
+
+/* How many primitives a unit has. */
+uint32_t parts_unit_count(const struct parts *p, size_t unit);
+
+/* A part of fewer primitives than this is a crumb: an octree would not pay for it. More than the 12
+ * triangles of a cube, which the paper's octrees hold in one leaf. Where primitives are loose, all
+ * parts are crumbs. */
 enum { PARTS_CRUMB = 16 };
 
+/* Makes units and parts of what is near: see near.c. */
+bool parts_connect(struct parts *p, double connectivity);
+
 /* Joins crumbs of one size class that are near each other: see crumbs.c. */
-bool parts_join_crumbs(struct parts *p, uint32_t size_classes);
+bool parts_join_crumbs(struct parts *p);
 
 /* Joins parts that lie in each other's boxes: see nested.c. */
 bool parts_join_nested(struct parts *p);
