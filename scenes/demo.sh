@@ -170,16 +170,21 @@ compare() {
     written+=("build/demo/$scene-stock.png" "build/demo/$scene-accel.png")
 }
 
-# trace_hits SCENE NAME: hits of the command as OpenEXR and PNG, two kinds compared; and against
-# stock POV-Ray's trace().
+# trace_hits SCENE NAME CONFIG: hits of the command as OpenEXR and PNG; a row of the table where
+# stock POV-Ray's trace() judges its hits.
 trace_hits() {
-    local scene=$1 name=$2
-    progress "$name: hits of build/accel"
-    "$build/accel" trace "$scene" -o "$demo/$name.exr" -a "${configs[0]}" --quiet \
-        --size "${width}x$height"
-    "$build/accel" trace "$scene" -o "$demo/$name-hits.png" -a "${configs[0]}" --quiet \
-        --size "${width}x$height"
-    written+=("build/demo/$name.exr" "build/demo/$name-hits.png")
+    local scene=$1 name=$2 config=$3 hits file
+    progress "$name, $config: hits of build/accel, judged by stock POV-Ray's trace()"
+    for file in "$name.exr" "$name-hits.png"; do
+        "$build/accel" trace "$scene" -o "$demo/$file" -a "$config" --quiet --size "${width}x$height"
+        written+=("build/demo/$file")
+    done
+    hits=$("$root/tests/povray/hits.sh" "$name" 64x36 "$config" | tee "$demo/$name.hits.log" |
+        tail -n 1) || failed=1
+    [ ! -t 1 ] || say
+    rows+=("$(awk -v scene="$name" -v kind="$config" '{
+        printf "%-10s %-14s %9d %9d %9d", scene, kind " (accel)", $2, $2, $(NF - 7) }' <<<"$hits")")
+    [ "$failed" -eq 0 ] || cat "$demo/$name.hits.log" >&2
 }
 
 main() {
@@ -195,12 +200,13 @@ main() {
             compare "$scene" "$config"
         done
         case $scene in
-        cubes) trace_hits cubes:gap=8 cubes ;;
-        teapots) trace_hits teapots teapots ;;
+        cubes) trace_hits cubes:gap=8 cubes "${configs[0]}" ;;
+        teapots) trace_hits teapots teapots "${configs[0]}" ;;
         esac
     done
     say
-    say "rays: in the picture. judged: rays of a small picture that linear search traced again."
+    say "rays: in the picture. judged: rays of a small picture that linear search traced again; for"
+    say "(accel), the command's hits, all rays by stock POV-Ray's trace()."
     say "trace: CPU seconds on one thread, median of $runs runs in turn. ratio over 1: ours is faster."
     say
     printf '%-10s %-14s %9s %9s %9s %9s %8s %8s %7s\n' "" "" "" "" differing differing trace trace "" \

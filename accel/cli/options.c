@@ -11,7 +11,7 @@
 #include <string.h>
 
 static const accel_flag common[] = {
-    {"quiet", 'q', NULL, "no progress, no notes: results and errors only"},
+    {"quiet", 'q', NULL, "no progress: results and errors only"},
     {"help", 'h', NULL, "print this and end"},
 };
 

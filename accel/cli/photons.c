@@ -193,7 +193,8 @@ const accel_command accel_command_photons = {
         "stored. Every structure, and every number of threads, traces the same paths and\n"
         "stores the same bits: the exit code is 1 if two CONFIGs differ. 'illum s' is the\n"
         "time of emission, tracing and storing together, as in the paper on hierarchies of\n"
-        "octrees; the build and the irradiance are apart.",
+        "octrees; 'cpu s' and ns/ray are its processor time, of all threads together. The\n"
+        "build and the irradiance are apart.",
     .flags = flags,
     .flag_count = sizeof flags / sizeof flags[0],
     .run = run,

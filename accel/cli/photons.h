@@ -66,7 +66,8 @@ typedef struct accel_photons {
     uint64_t escaped;  /* left the scene */
     uint64_t rays;     /* traced */
     accel_query query; /* counts of all rays */
-    double seconds;    /* of emission, tracing and storing */
+    double seconds;    /* of emission, tracing and storing, by the clock on the wall */
+    double processor;  /* the same in seconds of processor time, of all threads together */
 } accel_photons;
 
 /* Traces run->photons photons of each light through `a`, which was built over `scene`. Returns

@@ -38,8 +38,8 @@ static void print_head(const session *s)
            ", %u threads\n",
            s->request->scene, run->lights.count, run->photons, run->reflectance, run->seed,
            run->threads);
-    printf("%-36s %9s %9s %10s %10s %7s %7s %7s  %s\n", "structure", "build s", "illum s", "rays",
-           "hits", "nodes/r", "tests/r", "ns/ray", "hash of the hits");
+    printf("%-36s %8s %8s %8s %10s %10s %7s %7s %7s  %s\n", "structure", "build s", "illum s",
+           "cpu s", "rays", "hits", "nodes/r", "tests/r", "ns/ray", "hash of the hits");
 }
 
 static void print_row(const char *config, const accel *a, const accel_photons *photons,
@@ -48,10 +48,10 @@ static void print_row(const char *config, const accel *a, const accel_photons *p
     accel_info info;
     accel_describe(a, &info);
     const double rays = (double)photons->rays;
-    printf("%-36s %9.3f %9.3f %10" PRIu64 " %10zu %7.2f %7.2f %7.0f  %016" PRIx64 "\n", config,
-           info.seconds, photons->seconds, photons->rays, photons->count,
-           (double)photons->query.nodes / rays, (double)photons->query.tests / rays,
-           1e9 * photons->seconds / rays, hash);
+    printf("%-36s %8.3f %8.3f %8.3f %10" PRIu64 " %10zu %7.2f %7.2f %7.0f  %016" PRIx64 "\n",
+           config, info.seconds, photons->seconds, photons->processor, photons->rays,
+           photons->count, (double)photons->query.nodes / rays, (double)photons->query.tests / rays,
+           1e9 * photons->processor / rays, hash);
     fflush(stdout);
 }
 

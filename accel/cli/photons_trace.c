@@ -15,6 +15,7 @@
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 /* Photons of one block: enough that taking one costs nothing, few enough to share evenly. */
 enum { BLOCK = 1024 };
@@ -227,10 +228,18 @@ static bool join(const shoot *s, accel_photons *out)
     return out->at != NULL;
 }
 
+/* Seconds of processor time of this process. */
+static double processor_seconds(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
 bool accel_trace_photons(accel_photons *out, const accel *a, const accel_scene *scene,
                          const accel_photon_run *run)
 {
-    const double start = accel_seconds();
+    const double start = accel_seconds(), processor = processor_seconds();
     *out = (accel_photons){.emitted = (uint64_t)run->photons * run->lights.count};
     const size_t block_count = (size_t)((out->emitted + BLOCK - 1) / BLOCK);
     shoot s = {.a = a,
@@ -244,6 +253,7 @@ bool accel_trace_photons(accel_photons *out, const accel *a, const accel_scene *
         accel_crew(run->threads, work, &s);
         fine = join(&s, out);
         out->seconds = accel_seconds() - start;
+        out->processor = processor_seconds() - processor;
     }
     for (unsigned i = 0; s.workers != NULL && i < run->threads; i++) {
         free(s.workers[i].hits);

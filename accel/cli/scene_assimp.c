@@ -151,15 +151,33 @@ static void send_scene(FILE *pipe, const struct aiScene *scene, uint64_t most)
     }
 }
 
+static uint64_t count_faces(const struct aiScene *scene)
+{
+    uint64_t faces = 0;
+    for (unsigned i = 0; i < scene->mNumMeshes; i++) {
+        faces += scene->mMeshes[i]->mNumFaces;
+    }
+    return faces;
+}
+
 void accel_file_import(void *user, FILE *pipe)
 {
-    accel_file *file = user;
+    accel_mesh_file *mesh = user;
     struct aiFileIO io = {
-        .OpenProc = accel_file_open, .CloseProc = accel_file_close, .UserData = (char *)file};
-    const struct aiScene *scene = aiImportFileEx(file->path, aiProcess_Triangulate, &io);
+        .OpenProc = accel_file_open, .CloseProc = accel_file_close, .UserData = (char *)mesh};
+    const struct aiScene *scene = aiImportFileEx(mesh->file.path, 0, &io);
+    /* assimp drops what it cannot read without a word */
+    if (scene != NULL && mesh->faces != 0 && count_faces(scene) != mesh->faces) {
+        char text[200];
+        snprintf(text, sizeof text, "its header promises %llu faces, but its reader finds %llu",
+                 (unsigned long long)mesh->faces, (unsigned long long)count_faces(scene));
+        send_trouble(pipe, text);
+        return;
+    }
+    scene = scene == NULL ? NULL : aiApplyPostProcessing(scene, aiProcess_Triangulate);
     if (scene == NULL) {
         send_trouble(pipe, aiGetErrorString());
     } else {
-        send_scene(pipe, scene, accel_file_memory(file->size));
+        send_scene(pipe, scene, accel_file_memory(mesh->file.size));
     }
 }

@@ -27,6 +27,7 @@ typedef struct property {
 /* An element of a PLY header. */
 typedef struct element {
     uint64_t count;
+    bool is_face; /* named face */
     property properties[MOST_PROPERTIES];
     int property_count;
 } element;
@@ -129,7 +130,8 @@ static bool read_element(ply *p, const char *line)
         strchr(line, '-') != NULL) {
         return false;
     }
-    p->elements[p->element_count++] = (element){.count = count};
+    p->elements[p->element_count++] =
+        (element){.count = count, .is_face = strncmp(line, "element face ", 13) == 0};
     return true;
 }
 
@@ -161,25 +163,63 @@ static uint64_t binary_count(const ply *p, const char *at, int size)
     return count;
 }
 
-static bool skip_property(const ply *p, const property *made, rest *r)
+/* The next line that holds a word. */
+static bool take_body_line(rest *r, rest *line)
 {
-    uint64_t count = 1;
-    uint64_t ignored;
-    if (p->text) {
-        bool fine = made->list_size == 0 || take_word(r, &count);
-        for (; fine && count > 0; count--) {
-            fine = take_word(r, &ignored);
+    while (r->at < r->end) {
+        const char *stop = memchr(r->at, '\n', (size_t)(r->end - r->at));
+        *line = (rest){r->at, stop == NULL ? r->end : stop};
+        r->at = stop == NULL ? r->end : stop + 1;
+        while (line->at < line->end && isspace((unsigned char)*line->at)) {
+            line->at++;
         }
-        return fine;
+        if (line->at < line->end) {
+            return true;
+        }
     }
-    if (made->list_size != 0) {
-        const char *at = r->at;
-        if (!skip(r, (uint64_t)made->list_size)) {
+    return false;
+}
+
+/* Takes the words of one property in text. */
+static bool skip_words(const property *made, rest *line)
+{
+    uint64_t count = 1, ignored;
+    bool fine = made->list_size == 0 || take_word(line, &count);
+    for (; fine && count > 0; count--) {
+        fine = take_word(line, &ignored);
+    }
+    return fine;
+}
+
+/* One instance of an element is one line with just its words. */
+static bool skip_text(const element *e, rest *r)
+{
+    rest line;
+    uint64_t ignored;
+    bool fine = take_body_line(r, &line);
+    for (int k = 0; fine && k < e->property_count; k++) {
+        fine = skip_words(&e->properties[k], &line);
+    }
+    return fine && !take_word(&line, &ignored);
+}
+
+static bool skip_binary(const ply *p, const element *e, rest *r)
+{
+    for (int k = 0; k < e->property_count; k++) {
+        const property *made = &e->properties[k];
+        uint64_t count = 1;
+        if (made->list_size != 0) {
+            const char *at = r->at;
+            if (!skip(r, (uint64_t)made->list_size)) {
+                return false;
+            }
+            count = binary_count(p, at, made->list_size);
+        }
+        if (count > UINT32_MAX || !skip(r, count * (uint64_t)made->size)) {
             return false;
         }
-        count = binary_count(p, at, made->list_size);
     }
-    return count <= UINT32_MAX && skip(r, count * (uint64_t)made->size);
+    return true;
 }
 
 /* The number of instances of `e` that are there. */
@@ -189,16 +229,14 @@ static uint64_t skip_element(const ply *p, const element *e, rest *r)
         return e->count;
     }
     for (uint64_t i = 0; i < e->count; i++) {
-        for (int k = 0; k < e->property_count; k++) {
-            if (!skip_property(p, &e->properties[k], r)) {
-                return i;
-            }
+        if (!(p->text ? skip_text(e, r) : skip_binary(p, e, r))) {
+            return i;
         }
     }
     return e->count;
 }
 
-static const char *check_ply(rest r, char text[200])
+static const char *check_ply(rest r, uint64_t *faces, char text[200])
 {
     ply p = {0};
     char line[200];
@@ -213,6 +251,7 @@ static const char *check_ply(rest r, char text[200])
     }
     for (int i = 0; i < p.element_count; i++) {
         const uint64_t there = skip_element(&p, &p.elements[i], &r);
+        *faces = p.elements[i].is_face ? p.elements[i].count : *faces;
         if (there < p.elements[i].count) {
             snprintf(text, 200,
                      "its PLY header promises %llu of element %d, but only %llu are there",
@@ -223,40 +262,42 @@ static const char *check_ply(rest r, char text[200])
     return NULL;
 }
 
-/* As take_word, without comments, which go from '#' to the end of the line. */
-static bool take_off_word(rest *r, uint64_t *count)
+/* Removes comments, which go from '#' to the end of the line, and empty lines: assimp counts them
+ * as faces. Returns the new end. */
+static char *strip_comments(char *from, const char *end)
 {
-    for (;;) {
-        while (r->at < r->end && isspace((unsigned char)*r->at)) {
-            r->at++;
+    char *to = from;
+    bool comment = false, empty = true;
+    for (; from < end; from++) {
+        comment = *from == '#' || (comment && *from != '\n');
+        if (comment || (empty && isspace((unsigned char)*from))) {
+            continue;
         }
-        if (r->at == r->end || *r->at != '#') {
-            return take_word(r, count);
-        }
-        char line[2];
-        take_line(r, line, sizeof line);
+        *to++ = *from;
+        empty = *from == '\n';
     }
+    *to = '\0';
+    return to;
 }
 
-static const char *check_off(rest r, char text[200])
+static const char *check_off(rest r, uint64_t *promised, char text[200])
 {
     uint64_t ignored, vertices = 0, faces = 0;
-    take_off_word(&r, &ignored);
-    if (!take_off_word(&r, &vertices) || !take_off_word(&r, &faces) ||
-        !take_off_word(&r, &ignored)) {
+    take_word(&r, &ignored);
+    if (!take_word(&r, &vertices) || !take_word(&r, &faces) || !take_word(&r, &ignored)) {
         return "its OFF header has no counts: is it truncated";
     }
-    bool fine = vertices <= UINT32_MAX && faces <= UINT32_MAX;
-    for (uint64_t i = 0; fine && i < 3 * vertices; i++) {
-        fine = take_off_word(&r, &ignored);
+    bool fine = true;
+    rest line;
+    for (uint64_t i = 0; fine && i < vertices; i++) {
+        fine = take_body_line(&r, &line) && take_word(&line, &ignored) &&
+               take_word(&line, &ignored) && take_word(&line, &ignored);
     }
     for (uint64_t i = 0; fine && i < faces; i++) {
-        uint64_t corners = 0;
-        fine = take_off_word(&r, &corners);
-        for (; fine && corners > 0; corners--) {
-            fine = take_off_word(&r, &ignored);
-        }
+        const property corners = {.list_size = 1};
+        fine = take_body_line(&r, &line) && skip_words(&corners, &line);
     }
+    *promised = faces;
     snprintf(text, 200,
              "its OFF header promises %llu vertices and %llu faces, but the file ends "
              "before them",
@@ -264,7 +305,7 @@ static const char *check_off(rest r, char text[200])
     return fine ? NULL : text;
 }
 
-static const char *check_stl(rest r, char text[200])
+static const char *check_stl(rest r, uint64_t *faces, char text[200])
 {
     const uint64_t size = (uint64_t)(r.end - r.at);
     uint32_t count = 0;
@@ -272,6 +313,7 @@ static const char *check_stl(rest r, char text[200])
         memcpy(&count, r.at + 80, sizeof count);
     }
     if (size >= 84 && size == 84 + 50 * (uint64_t)count) {
+        *faces = count;
         return NULL;
     }
     if (size < 5 || strncasecmp(r.at, "solid", 5) != 0) {
@@ -291,14 +333,19 @@ static bool ends_with(const char *path, const char *extension)
     return length >= ending && strcasecmp(path + length - ending, extension) == 0;
 }
 
-const char *accel_file_counts(const accel_file *file, char text[200])
+const char *accel_file_counts(accel_mesh_file *mesh, char text[200])
 {
+    accel_file *file = &mesh->file;
+    const bool off = ends_with(file->path, ".off");
+    if (off) {
+        file->size = (size_t)(strip_comments(file->bytes, file->bytes + file->size) - file->bytes);
+    }
     const rest all = {file->bytes, file->bytes + file->size};
     if (ends_with(file->path, ".ply")) {
-        return check_ply(all, text);
+        return check_ply(all, &mesh->faces, text);
     }
-    if (ends_with(file->path, ".off")) {
-        return check_off(all, text);
+    if (off) {
+        return check_off(all, &mesh->faces, text);
     }
-    return ends_with(file->path, ".stl") ? check_stl(all, text) : NULL;
+    return ends_with(file->path, ".stl") ? check_stl(all, &mesh->faces, text) : NULL;
 }

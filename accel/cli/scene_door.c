@@ -99,7 +99,8 @@ static bool open_bytes(door *d, const accel_file *main, const char *path)
 struct aiFile *accel_file_open(struct aiFileIO *io, const char *path, const char *mode)
 {
     door *d = strchr(mode, 'r') == NULL ? NULL : calloc(1, sizeof *d);
-    if (d == NULL || !open_bytes(d, (const accel_file *)(void *)io->UserData, path)) {
+    const accel_mesh_file *mesh = (const accel_mesh_file *)(void *)io->UserData;
+    if (d == NULL || !open_bytes(d, &mesh->file, path)) {
         free(d);
         return NULL;
     }

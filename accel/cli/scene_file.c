@@ -77,13 +77,14 @@ static const char *receive(accel_child *child, accel_loaded *out, accel_file_ver
                                                                        : trouble;
 }
 
-static bool import(accel_loaded *out, accel_file *file, accel_load_progress *progress, void *user,
-                   accel_error *error)
+static bool import(accel_loaded *out, accel_mesh_file *mesh, accel_load_progress *progress,
+                   void *user, accel_error *error)
 {
     accel_child child;
-    const accel_child_limits limits = {accel_file_memory(file->size), seconds_for(file->size)};
-    if (!accel_child_start(&child, limits, accel_file_import, file)) {
-        return accel_file_fail(file->path, "no process for its reader", error);
+    const accel_child_limits limits = {accel_file_memory(mesh->file.size),
+                                       seconds_for(mesh->file.size)};
+    if (!accel_child_start(&child, limits, accel_file_import, mesh)) {
+        return accel_file_fail(mesh->file.path, "no process for its reader", error);
     }
     child.tick = progress;
     child.user = user;
@@ -92,23 +93,23 @@ static bool import(accel_loaded *out, accel_file *file, accel_load_progress *pro
     const char *end = accel_child_end(&child);
     /* a child that died explains more than the bytes that are missing */
     trouble = trouble != NULL && end != NULL ? end : trouble;
-    return trouble == NULL || accel_file_fail(file->path, trouble, error);
+    return trouble == NULL || accel_file_fail(mesh->file.path, trouble, error);
 }
 
 bool accel_load_file(accel_loaded *out, const char *path, accel_load_progress *progress, void *user,
                      accel_error *error)
 {
-    accel_file file;
-    if (!accel_file_read(&file, path, error)) {
+    accel_mesh_file mesh = {0};
+    if (!accel_file_read(&mesh.file, path, error)) {
         return false;
     }
     char text[200];
-    const char *trouble = accel_file_counts(&file, text);
-    const bool fine = trouble == NULL ? import(out, &file, progress, user, error)
+    const char *trouble = accel_file_counts(&mesh, text);
+    const bool fine = trouble == NULL ? import(out, &mesh, progress, user, error)
                                       : accel_file_fail(path, trouble, error);
     if (!fine) {
         accel_unload_scene(out);
     }
-    free(file.bytes);
+    free(mesh.file.bytes);
     return fine;
 }

@@ -15,10 +15,16 @@
 /* Bytes that importing a file of this size may take. */
 uint64_t accel_file_memory(size_t file_bytes);
 
-/* Compares what the headers of PLY, OFF and STL files promise with the bytes that are there.
- * Returns NULL where nothing is wrong or the format has no counts; otherwise what is wrong. `text`
- * is room for it. */
-const char *accel_file_counts(const accel_file *file, char text[200]);
+/* A mesh file and what is known of it before it is imported. */
+typedef struct accel_mesh_file {
+    accel_file file;
+    uint64_t faces; /* that its header promises; 0 where it promises none */
+} accel_mesh_file;
+
+/* Compares what the headers of PLY, OFF and STL files promise with the bytes that are there, and
+ * removes comments from OFF files. Returns NULL where nothing is wrong or the format has no counts;
+ * otherwise what is wrong. `text` is room for it. */
+const char *accel_file_counts(accel_mesh_file *mesh, char text[200]);
 
 /* What the child says first. */
 typedef struct accel_file_verdict {
@@ -32,7 +38,7 @@ typedef struct accel_file_head {
     uint32_t vertices, triangles;
 } accel_file_head;
 
-/* The child's part; `user` is the accel_file. */
+/* The child's part; `user` is the accel_mesh_file. */
 accel_child_work accel_file_import;
 
 /* assimp's doors to files: the file in memory, and the buffers of a glTF beside it. */

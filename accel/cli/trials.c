@@ -32,7 +32,7 @@ static int take_turn(accel_trials *t, size_t index, unsigned turn, const accel_l
     if (!accel_trace_photons(&photons, trial->structure, &loaded->scene, &t->run)) {
         return accel_complain(command, "out of memory for the photons");
     }
-    trial->seconds[turn] = photons.seconds;
+    trial->seconds[turn] = photons.processor;
     int code = ACCEL_EXIT_FINE;
     if (turn == 0) {
         const uint64_t hash = accel_photons_hash(&photons);

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
  * Timing structures against each other by photons: all are built first, then they take turns, so
- * that whatever else the machine does falls on all of them; medians are compared.
+ * that whatever else the machine does falls on all of them; medians of processor time are compared,
+ * which waiting for other programs does not lengthen.
  */
 #ifndef ACCEL_CLI_TRIALS_H
 #define ACCEL_CLI_TRIALS_H
@@ -16,7 +17,7 @@ typedef struct accel_trial {
     const char *config;
     accel *structure;
     accel_info info;                    /* of the structure */
-    double seconds[ACCEL_MOST_REPEATS]; /* of illumination; sorted in the end */
+    double seconds[ACCEL_MOST_REPEATS]; /* of illumination, processor time; sorted in the end */
     double median, quartiles[2];        /* of them */
     accel_photons photons;              /* counts of one run; the list itself is gone */
 } accel_trial;

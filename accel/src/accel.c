@@ -10,13 +10,17 @@
 #include <stdio.h>
 #include <string.h>
 
-extern const struct accel_kind bvh_kind, grid_kind, hoo_kind, linear_kind, octree_kind, auto_kind;
+/* kinds.h holds KIND(name) for each kind that is compiled in, linear first and auto last. A new kind
+ * is its file and one line in accel/CMakeLists.txt, which makes kinds.h. */
+#define KIND(name) extern const struct accel_kind name##_kind;
+#include "kinds.h"
+#undef KIND
 
-/* A new kind: its file, and one line here. */
+#define KIND(name) &name##_kind.info,
 const accel_kind_info *const kinds[] = {
-    &linear_kind.info, &octree_kind.info, &hoo_kind.info, &auto_kind.info,
-    &bvh_kind.info,    &grid_kind.info,   NULL,
-};
+#include "kinds.h"
+    NULL};
+#undef KIND
 
 const accel_kind_info *const *accel_kinds(size_t *count)
 {
@@ -121,7 +125,6 @@ static bool run(struct build *build, const accel_scene *scene)
         return false;
     struct accel *a = build->a;
     if (a->prims.bounded.count > 0) {
-        build_phase(build, "build");
         if (!a->kind->build(build))
             return false;
     }
@@ -137,7 +140,8 @@ static accel *allocate(const struct accel_kind *kind, const accel_hooks *hooks, 
     struct memory m = {hooks->resize ? hooks->resize : memory_system, hooks->user, 0, 0, 0};
     accel *a = memory_resize(&m, NULL, 0, kind->size);
     if (!a) {
-        error_set(error, ACCEL_NO_MEMORY, "build %s: no memory for %zu bytes; nothing was built",
+        error_set(error, ACCEL_NO_MEMORY,
+                  "build %s: no memory for %zu bytes in phase 'start'; nothing was built",
                   kind->info.name, kind->size);
         return NULL;
     }

@@ -29,7 +29,12 @@ static bool build(struct build *build)
 
 static void visit(const accel *a, struct query *q, struct boxtree_child leaf)
 {
-    query_test_list(q, ((const struct bvh *)a)->refs.at + leaf.first, leaf.count);
+    const struct bvh *b = (const struct bvh *)a;
+    const uint32_t *ids = b->refs.at + leaf.first;
+    if (b->triangles && !q->point)
+        query_test_triangles(q, ids, b->triangles + 9 * (size_t)leaf.first, leaf.count);
+    else
+        query_test_list(q, ids, leaf.count);
 }
 
 static void walk(const accel *a, struct query *q)
@@ -51,6 +56,8 @@ static bool validate(const accel *a, accel_error *error)
 static void release(accel *a)
 {
     struct bvh *b = (struct bvh *)a;
+    if (b->triangles)
+        memory_resize(&a->memory, b->triangles, 9 * sizeof(double) * b->refs.count, 0);
     array_free(&a->memory, &b->nodes);
     array_free(&a->memory, &b->refs);
 }
@@ -60,7 +67,7 @@ const struct accel_kind bvh_kind = {
              .summary = "binary hierarchy of boxes by the surface-area heuristic",
              .options = options,
              .option_count = sizeof options / sizeof *options},
-    .cost = {.build = 30, .ray = 60, .node = 15, .test = 14, .growth = GROWS_LIKE_LOG},
+    .cost = {.build = 30, .ray = 45, .node = 15, .test = 5, .growth = GROWS_LIKE_LOG},
     .size = sizeof(struct bvh),
     .build = build,
     .walk = walk,

@@ -23,6 +23,7 @@ struct bvh {
     accel base;
     ARRAY_OF(struct boxtree_node) nodes;
     ARRAY_OF(uint32_t) refs;   /* ids, leaf after leaf */
+    double *triangles;         /* 9 doubles per reference if all are triangles, else NULL */
     struct boxtree_child root; /* node 0, or the only leaf */
     accel_box box;             /* of the root */
 };

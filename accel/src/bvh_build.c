@@ -20,8 +20,10 @@
 
 #include <string.h>
 
-/* Cost of visiting a node; the cost of a test is primitives.test_cost of them. */
+/* Predicted costs, in units of one node's visit. Of two triangles, which are tested at once, as
+ * measured; other primitives cost primitives.test_cost each. */
 #define NODE_COST 1.0
+#define PAIR_COST 0.5
 
 /* Bins per axis, the largest range whose items are sorted instead, and items between two ticks. */
 enum { BINS = 32, SWEEP = 24, TICK = 16384 };
@@ -332,7 +334,14 @@ static uint32_t partition(const struct range *r, const struct cut *cut)
 
 static double leaf_cost(const struct grower *g, uint32_t count)
 {
-    return g->build->a->prims.test_cost * count;
+    const struct primitives *p = &g->build->a->prims;
+    return primitives_only_triangles(p) ? PAIR_COST * ((count + 1) / 2) : p->test_cost * count;
+}
+
+/* Is a range a leaf before any cut is tried? Where cost decides, a node alone may cost more. */
+static bool small_enough(const struct grower *g, uint32_t count)
+{
+    return isnan(g->leaf) ? count == 1 || leaf_cost(g, count) <= NODE_COST : count <= g->leaf;
 }
 
 static bool make_leaf(struct grower *g, const struct range *r, struct subtree *out)
@@ -353,8 +362,8 @@ static bool join(struct grower *g, const struct range *r, size_t node, const str
         return make_leaf(g, r, out);
     }
     const uint32_t height = half[0].height > half[1].height ? half[0].height : half[1].height;
-    g->bvh->nodes.at[node] =
-        (struct boxtree_node){{half[0].box, half[1].box}, {half[0].child, half[1].child}};
+    for (int i = 0; i < 2; i++)
+        boxtree_set(&g->bvh->nodes.at[node], i, &half[i].box, half[i].child);
     *out = (struct subtree){{(uint32_t)node, 0}, r->box, cost, height + 1};
     return true;
 }
@@ -372,7 +381,7 @@ static bool grow(struct grower *g, struct item *at, uint32_t count, uint32_t dep
         if (!measure(g, &r))
             return false;
     }
-    if (!keys_differ(&r) || count <= (isnan(g->leaf) ? 1 : g->leaf))
+    if (!keys_differ(&r) || small_enough(g, count))
         return make_leaf(g, &r, out);
     r.limit = most_items(depth + 1);
     if (!find_cut(g, &r, &cut))
@@ -413,6 +422,17 @@ static bool gather(struct grower *g)
     return true;
 }
 
+/* Takes the finished tree over. */
+static void finish(struct grower *g, const struct subtree *root)
+{
+    struct bvh *b = g->bvh;
+    for (size_t i = 0; i < b->refs.count; i++)
+        b->refs.at[i] = g->items[i].id;
+    b->root = root->child;
+    b->box = root->box;
+    b->base.info.depth = root->height;
+}
+
 bool bvh_build(struct build *build, struct bvh *bvh, double leaf)
 {
     struct grower g = {.build = build, .bvh = bvh, .leaf = leaf};
@@ -421,15 +441,11 @@ bool bvh_build(struct build *build, struct bvh *bvh, double leaf)
     struct subtree root;
     build_phase(build, "bvh");
     const bool fine = gather(&g) && grow(&g, g.items, (uint32_t)count, 0, &root);
-    if (fine) {
-        for (size_t i = 0; i < count; i++)
-            bvh->refs.at[i] = g.items[i].id;
-        bvh->root = root.child;
-        bvh->box = root.box;
-        build->a->info.depth = root.height;
-    }
+    if (fine)
+        finish(&g, &root);
     if (g.items)
         memory_resize(m, g.items, count * sizeof *g.items, 0);
     array_free(m, &g.places);
-    return fine;
+    build_phase(build, "layout");
+    return fine && primitives_move_triangles(build, bvh->refs.at, count, &bvh->triangles);
 }

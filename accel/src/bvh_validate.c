@@ -46,11 +46,14 @@ static bool check(struct checker *c, struct boxtree_child child, const accel_box
     if (child.first >= c->bvh->nodes.count || c->nodes++ == c->bvh->nodes.count)
         return broken(c, "out of range or below itself, node", child.first);
     const struct boxtree_node *node = &c->bvh->nodes.at[child.first];
-    for (int i = 0; i < 2; i++)
-        if (!box_contains(box, &node->box[i]))
+    for (int i = 0; i < 2; i++) {
+        const accel_box inner = boxtree_box(node, i);
+        if (!box_contains(box, &inner))
             return broken(c, "a child's box leaves its parent's, node", child.first);
-    return check(c, node->child[0], &node->box[0], depth + 1) &&
-           check(c, node->child[1], &node->box[1], depth + 1);
+        if (!check(c, node->child[i], &inner, depth + 1))
+            return false;
+    }
+    return true;
 }
 
 bool bvh_validate(const struct bvh *bvh, accel_error *error)

@@ -182,10 +182,12 @@ static bool check_child(const struct hoo_kind *h, const accel_box *box, struct b
     if (child.first >= h->top.nodes.count)
         return broken(error, "the top tree has no node", child.first);
     const struct boxtree_node *node = &h->top.nodes.at[child.first];
-    for (int side = 0; side < 2; side++)
-        if (!box_contains(box, &node->box[side]) ||
-            !check_child(h, &node->box[side], node->child[side], depth + 1, seen, error))
+    for (int side = 0; side < 2; side++) {
+        const accel_box inner = boxtree_box(node, side);
+        if (!box_contains(box, &inner) ||
+            !check_child(h, &inner, node->child[side], depth + 1, seen, error))
             return broken(error, "wrong below node of the top tree", child.first);
+    }
     return true;
 }
 

@@ -132,7 +132,8 @@ static void add_pairs(struct pairer *p, size_t pairs)
 static struct item joined(struct pairer *p, const struct item *a, const struct item *b)
 {
     struct boxtree_node *node = &p->tree->nodes.at[p->tree->nodes.count];
-    *node = (struct boxtree_node){{a->box, b->box}, {a->child, b->child}};
+    boxtree_set(node, 0, &a->box, a->child);
+    boxtree_set(node, 1, &b->box, b->child);
     struct item both = {a->box,
                         {(uint32_t)p->tree->nodes.count, 0},
                         0,

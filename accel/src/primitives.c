@@ -320,12 +320,45 @@ bool primitives_copy(struct build *build, const accel_scene *scene)
     return true;
 }
 
+bool primitives_only_triangles(const struct primitives *p)
+{
+    for (uint32_t g = 0; g < p->geometry_count; g++)
+        if (p->geometry[g].type != ACCEL_TRIANGLES && p->geometry[g].count > 0)
+            return false;
+    return true;
+}
+
+static void free_data(struct memory *m, struct geometry *g)
+{
+    if (g->data)
+        memory_resize(m, g->data, data_doubles(g) * sizeof(double), 0);
+    g->data = NULL;
+}
+
+bool primitives_move_triangles(struct build *build, const uint32_t *ids, size_t count, double **out)
+{
+    struct primitives *p = &build->a->prims;
+    *out = NULL;
+    if (!primitives_only_triangles(p))
+        return true;
+    const size_t size = 9 * sizeof(double);
+    double *moved = allocate(build, count, size);
+    if (!moved)
+        return false;
+    for (size_t i = 0; i < count; i++) {
+        const struct geometry *g = primitives_geometry(p, ids[i]);
+        memcpy(moved + 9 * i, g->data + 9 * (size_t)(ids[i] - g->first), size);
+    }
+    for (uint32_t g = 0; g < p->geometry_count; g++)
+        free_data(&build->a->memory, &p->geometry[g]);
+    *out = moved;
+    return true;
+}
+
 void primitives_free(struct memory *m, struct primitives *p)
 {
     for (uint32_t g = 0; g < p->geometry_count; g++)
-        if (p->geometry[g].data)
-            memory_resize(m, p->geometry[g].data, data_doubles(&p->geometry[g]) * sizeof(double),
-                          0);
+        free_data(m, &p->geometry[g]);
     if (p->geometry)
         memory_resize(m, p->geometry, p->geometry_count * sizeof *p->geometry, 0);
     if (p->box)

@@ -46,6 +46,15 @@ struct primitives {
 /* Copies and checks the scene, filling the counts in build->a->info. False: see build->error. */
 bool primitives_copy(struct build *build, const accel_scene *scene);
 
+/* Is there nothing but triangles? */
+bool primitives_only_triangles(const struct primitives *p);
+
+/* For a kind that refers to each primitive once: if there are only triangles, moves their vertices
+ * into *out, a new array of 9 doubles for each of ids[0 .. count - 1] in that order, which the kind
+ * then owns, and frees the geometries' own. Otherwise *out is NULL. False if there is no memory. */
+bool primitives_move_triangles(struct build *build, const uint32_t *ids, size_t count,
+                               double **out);
+
 void primitives_free(struct memory *m, struct primitives *p);
 
 static inline const struct geometry *primitives_geometry(const struct primitives *p, uint32_t id)

@@ -147,3 +147,25 @@ void query_test_list(struct query *q, const uint32_t *ids, size_t count)
         test(q, ids[i], true);
     }
 }
+
+/* One triangle that a test of two has not ruled out. */
+static void test_survivor(struct query *q, uint32_t id, const double *vertices)
+{
+    double t, u, v;
+    if (id != q->skip && triangle_hit(q, vertices, &t, &u, &v))
+        offer(q, id, t, u, v);
+}
+
+void query_test_triangles(struct query *q, const uint32_t *ids, const double *vertices,
+                          size_t count)
+{
+    q->tests += count;
+    for (size_t i = 0; i < count && !query_done(q); i += 2) {
+        const size_t next = i + 1 < count ? i + 1 : i;
+        const uint32_t may = triangle_pair_may_hit(q, vertices + 9 * i, vertices + 9 * next);
+        if (may & 1)
+            test_survivor(q, ids[i], vertices + 9 * i);
+        if (may & 2 && next > i)
+            test_survivor(q, ids[next], vertices + 9 * next);
+    }
+}

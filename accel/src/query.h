@@ -129,6 +129,11 @@ static inline bool query_done(const struct query *q)
  * tested lately, and objects whose box begins after the limit. */
 void query_test_list(struct query *q, const uint32_t *ids, size_t count);
 
+/* Tests triangles whose vertices the kind keeps in the order of its leaves, 9 doubles each. Not for
+ * point queries, nor for references that a walk meets twice. */
+void query_test_triangles(struct query *q, const uint32_t *ids, const double *vertices,
+                          size_t count);
+
 /* Tests every one: what linear does. */
 void query_test_all(struct query *q, const uint32_t *ids, size_t count);
 

@@ -15,10 +15,36 @@
 #ifndef ACCEL_TRIANGLE_H
 #define ACCEL_TRIANGLE_H
 
+#include "pair.h"
 #include "query.h"
 
 /* Tests the triangle of three vertices (9 doubles). Returns true if the ray's line hits it, with
  * t and the weights u, v of the second and third vertex. */
 bool triangle_hit(const struct query *q, const double *vertices, double *t, double *u, double *v);
+
+/* Two triangles at once. Bit i of the result is 0 only if triangle_hit is false for the i-th: the
+ * same edge functions in the same order of operations have both signs. Where one is NaN the sign
+ * found is still that of another. */
+static inline uint32_t triangle_pair_may_hit(const struct query *q, const double *first,
+                                             const double *second)
+{
+    const int kx = q->axis[0], ky = q->axis[1], kz = q->axis[2];
+    pair x[3], y[3];
+    for (int i = 0; i < 3; i++) {
+        const double *a = first + 3 * i, *b = second + 3 * i;
+        const pair z = pair_sub(pair_of(a[kz], b[kz]), pair_both(q->org[kz]));
+        x[i] = pair_sub(pair_sub(pair_of(a[kx], b[kx]), pair_both(q->org[kx])),
+                        pair_mul(pair_both(q->shear[0]), z));
+        y[i] = pair_sub(pair_sub(pair_of(a[ky], b[ky]), pair_both(q->org[ky])),
+                        pair_mul(pair_both(q->shear[1]), z));
+    }
+    const pair e0 = pair_sub(pair_mul(x[2], y[1]), pair_mul(y[2], x[1]));
+    const pair e1 = pair_sub(pair_mul(x[0], y[2]), pair_mul(y[0], x[2]));
+    const pair e2 = pair_sub(pair_mul(x[1], y[0]), pair_mul(y[1], x[0]));
+    const pair zero = pair_both(0.0);
+    const uint32_t negative = pair_below(pair_min(pair_min(e0, e1), e2), zero);
+    const uint32_t positive = pair_below(zero, pair_max(pair_max(e0, e1), e2));
+    return 3 & ~(negative & positive);
+}
 
 #endif

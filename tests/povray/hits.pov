@@ -11,8 +11,9 @@
 // Declare=Scene=S   0: cubes.inc with Declare=Gap=X; 1: triangles.inc, as accel export --as triangles
 // Declare=Eye_X=X and so on, At_X, Fov, Columns, Rows: the camera of accel trace, whose formula
 //                   stands in accel/cli/camera.h and below, in the same order in double
-// Writes hits.txt, a line for each pixel, row by row: the point and the number in 20 digits for a
-// hit, "miss" for a miss.
+// Traces a ray for each pixel, and from each of their hits one more in a direction of its own.
+// Writes rays.txt, "ORIGIN DIRECTION TMIN TMAX" for accel trace --rays, and hits.txt, on the same
+// line the point and the number of the triangle, in 20 digits, or "miss".
 #version 3.7;
 global_settings { assumed_gamma 1 }
 
@@ -66,6 +67,22 @@ global_settings { assumed_gamma 1 }
 #declare U = <R.y * W.z - R.z * W.y, R.z * W.x - R.x * W.z, R.x * W.y - R.y * W.x>;
 #declare H = tan(Fov * pi / 360);
 
+// What POV-Ray takes for a hit: MIN_ISECT_DEPTH to MAX_DISTANCE, in lengths of the direction here.
+#macro Trace_Ray(Start, Along)
+    #local From = Start;
+    #declare Normal = <0, 0, 0>;
+    #declare Point = trace(All, From, Along, Normal);
+    #write (Rays, vstr(3, From, " ", 0, 20), " ", vstr(3, Along, " ", 0, 20), " ",
+            str(1e-4 / vlength(Along), 0, 20), " ", str(1e7 / vlength(Along), 0, 20), "\n")
+    #if (vlength(Normal) = 0)
+        #write (Hits, "miss\n")
+    #else
+        #write (Hits, vstr(3, Point, " ", 0, 20), " ", str(Decoded(Normal), 0, 20), "\n")
+    #end
+#end
+
+#declare Random = seed(1);
+#fopen Rays "rays.txt" write
 #fopen Hits "hits.txt" write
 #declare J = 0;
 #while (J < Rows)
@@ -73,15 +90,13 @@ global_settings { assumed_gamma 1 }
     #declare I = 0;
     #while (I < Columns)
         #declare X = (2 * (I + 0.5) / Columns - 1) * H;
-        #declare Normal = <0, 0, 0>;
-        #declare Point = trace(All, Eye, (W + X * R) + Y * U, Normal);
-        #if (vlength(Normal) = 0)
-            #write (Hits, "miss\n")
-        #else
-            #write (Hits, vstr(3, Point, " ", 0, 20), " ", str(Decoded(Normal), 0, 20), "\n")
+        Trace_Ray(Eye, (W + X * R) + Y * U)
+        #if (vlength(Normal) > 0)
+            Trace_Ray(Point, <rand(Random), rand(Random), rand(Random)> - 0.5)
         #end
         #declare I = I + 1;
     #end
     #declare J = J + 1;
 #end
 #fclose Hits
+#fclose Rays

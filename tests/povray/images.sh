@@ -64,8 +64,8 @@ try() {
     local what=$1
     shift
     # +MB1: the two objects of crater are too few for the usual threshold
-    render "$what.log" "$size" "$1" +I"$scene" +L"$(dirname "$scene")" +MB1 "${@:2}" \
-        +O"$what.ppm" && return
+    render "$what.log" "$size" "$1" +I"$scene" +L"$(dirname "$scene")" \
+        +L"$build/scenes" +MB1 "${@:2}" +O"$what.ppm" && return
     grep -a 'rror' "$what.log" | head -n 3 || tail -n 3 "$what.log"
     echo "FAILED $what: see $PWD/$what.log"
     exit 1
@@ -102,8 +102,8 @@ verify_scene() {
     local kind queries=0 differences=0 outside=0 q d o
     for kind in "${verified_kinds[@]}"; do
         file=verify-${kind//[:,=]/-}
-        render "$file.log" "$size" "$ours" +I"$scene" +L"$(dirname "$scene")" +MB1 +BM3 \
-            +BX"$kind" Accelerator_Verify=On +O"$file.ppm" ||
+        render "$file.log" "$size" "$ours" +I"$scene" +L"$(dirname "$scene")" \
+            +L"$build/scenes" +MB1 +BM3 +BX"$kind" Accelerator_Verify=On +O"$file.ppm" ||
             echo "$name, $kind: verifying ends with exit code $?" >>wrong
         q=$(statistic "$file.log" '^Accelerator verified:' 3)
         d=$(statistic "$file.log" '^Accelerator verified:' 5)

@@ -231,7 +231,7 @@ typedef struct accel_hooks {
 ACCEL_API accel_status accel_build(accel **out, const accel_scene *scene, const char *config,
                                    const accel_hooks *hooks, accel_error *error);
 
-#define ACCEL_DEFAULT_CONFIG "hoo"
+#define ACCEL_DEFAULT_CONFIG "auto"
 
 /* Ends `a` and frees all that it holds. NULL is allowed. No query may be running. */
 ACCEL_API void accel_free(accel *a);

@@ -1,0 +1,79 @@
+#!/bin/bash
+# SPDX-License-Identifier: Apache-2.0
+# Every input that is no scene: one clear line, exit code 2, nothing written.
+# shellcheck source=tests/cli/common.sh
+. "$(dirname "$0")/common.sh"
+write_meshes
+
+complains "No such file or directory" info missing.ply
+complains "neither a file nor a built-in scene" info missing
+mkdir folder.ply && complains "is a directory" info folder.ply
+mkfifo pipe.ply && complains "is not a regular file" info pipe.ply
+: >empty.ply && complains "is empty" info empty.ply
+if [ "$(id -u)" != 0 ]; then
+    cp text.ply locked.ply && chmod 0 locked.ply
+    complains "Permission denied" info locked.ply
+fi
+head -c 100 /dev/urandom >noise.obj && complains "nothing was loaded" info noise.obj
+head -c 4000 /dev/zero >zero.ply && complains "PLY header" info zero.ply
+echo "not a mesh" >file.xyz && complains "nothing was loaded" info file.xyz
+
+# Truncated: every prefix is either refused or lacks nothing but the last line's end.
+for mesh in text.ply binary.ply text.off text.stl; do
+    size=$(stat -c %s "$mesh")
+    for ((bytes = 1; bytes < size - 1; bytes += 5)); do
+        head -c "$bytes" "$mesh" >"cut.${mesh#*.}"
+        got=0
+        timeout 60 "$accel" info "cut.${mesh#*.}" -a linear >out 2>err || got=$?
+        lines=$(wc -l <err)
+        if [ "$got" != 2 ] || [ "$lines" != 1 ] || [ -s out ]; then
+            # text cannot show that its last number lost digits or its last word letters
+            [ "$mesh" != binary.ply ] && [ "$got" = 0 ] && [ $((size - bytes)) -le 3 ] ||
+                fail "$bytes bytes of $mesh: exit code $got, $lines lines"
+        fi
+    done
+done
+printf 'v 0 0 0\nv 1 0 0\nv 0 1' >cut.obj
+complains "holds no triangle" info cut.obj
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2' >face.obj
+complains "holds no triangle" info face.obj
+
+# Hostile counts and indices.
+for count in 5 2147483647 4294967295 18446744073709551615; do
+    sed "s/element vertex 4/element vertex $count/" text.ply >count.ply
+    complains "PLY header promises" info count.ply
+    sed "s/element face 4/element face $count/" text.ply >count.ply
+    complains "PLY header promises $count of element 2" info count.ply
+    sed "s/^4 4 0/$count 4 0/" text.off >count.off
+    complains "OFF header promises" info count.off
+done
+sed 's/element vertex 4/element vertex -1/' text.ply >count.ply
+complains "cannot be read" info count.ply
+sed 's/property list uchar int/property list uchar toast/' text.ply >count.ply
+complains "cannot be read" info count.ply
+sed 's/^3 1 2 3/3 1 2 99999/' text.ply >index.ply
+complains "vertex" info index.ply
+sed 's/^3 1 2 3/3 1 2 -1/' text.ply >index.ply
+complains "vertex" info index.ply
+sed 's/^f 2 3 4/f 2 3 99999/' text.obj >index.obj
+complains "nothing was loaded" info index.obj
+{
+    head -c 80 /dev/zero
+    printf '\377\377\377\377'
+    head -c 50 /dev/zero
+} >count.stl
+complains "STL header promises 4294967295 triangles" info count.stl
+
+# Meshes without triangles.
+sed 's/element face 4/element face 0/; /^3 /d' text.ply >points.ply
+complains "holds no triangle" info points.ply
+printf 'v 0 0 0\nv 1 0 0\nl 1 2\np 1\n' >lines.obj
+complains "holds no triangle" info lines.obj
+
+# The other subcommands load in the same way.
+complains "No such file or directory" check missing.ply
+complains "No such file or directory" trace missing.ply -o x.exr
+complains "cannot be read" trace count.ply -o x.exr
+complains "Nothing was built" check one -a nokind
+complains "Nothing was built" trace one -o x.exr -a nokind
+finish

@@ -1,0 +1,162 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * The floating-point environment is the caller's: under every rounding mode, and with subnormal
+ * numbers flushed to zero, each kind answers as linear does in that mode, and the environment is
+ * left as it was. Structures built in one mode may be walked in another.
+ */
+#include <fenv.h>
+#include <stdlib.h>
+
+#include "cmocka_all.h"
+#include "compare.h"
+
+#if defined(__SSE2__)
+#include <xmmintrin.h>
+#define FLUSH_BITS 0x8040u /* FTZ and DAZ of MXCSR */
+static unsigned flush_get(void)
+{
+    return _mm_getcsr() & FLUSH_BITS;
+}
+static void flush_set(unsigned bits)
+{
+    _mm_setcsr((_mm_getcsr() & ~FLUSH_BITS) | bits);
+}
+#else
+#define FLUSH_BITS 0u
+static unsigned flush_get(void)
+{
+    return 0;
+}
+static void flush_set(unsigned bits)
+{
+    (void)bits;
+}
+#endif
+
+struct mode {
+    const char *name;
+    int rounding;
+    unsigned flush;
+};
+
+static const struct mode modes[] = {
+    {"to nearest", FE_TONEAREST, 0},
+    {"up", FE_UPWARD, 0},
+    {"down", FE_DOWNWARD, 0},
+    {"to zero", FE_TOWARDZERO, 0},
+    {"to nearest, flushing", FE_TONEAREST, FLUSH_BITS},
+    {"up, flushing", FE_UPWARD, FLUSH_BITS},
+    {"to nearest, results flushed", FE_TONEAREST, FLUSH_BITS & 0x8000u},
+    {"to nearest, operands flushed", FE_TONEAREST, FLUSH_BITS & 0x0040u},
+};
+
+enum { MODES = sizeof modes / sizeof *modes };
+
+static void enter(const struct mode *m)
+{
+    fesetround(m->rounding);
+    flush_set(m->flush);
+}
+
+static void leave(const struct mode *m)
+{
+    const bool kept = fegetround() == m->rounding && flush_get() == m->flush;
+    fesetround(FE_TONEAREST);
+    flush_set(0);
+    if (!kept)
+        fail_msg("the floating-point environment '%s' was not kept", m->name);
+}
+
+enum { RAYS = 120, TURNS = 8 };
+
+struct rays {
+    accel_ray ray[RAYS];
+    struct answer answer[RAYS];
+};
+
+/* Shoots in the mode; compares with what linear said in it, or notes that. */
+static uint32_t shoot(const accel *a, const struct mode *m, struct rays *r, bool judge,
+                      uint32_t *first)
+{
+    uint32_t wrong = 0;
+    enter(m);
+    for (uint32_t i = 0; i < RAYS; i++) {
+        const struct answer found = ask(a, &r->ray[i], i % 4 == 0);
+        if (judge)
+            r->answer[i] = found;
+        else if (!r->answer[i].outside && !same_answer(&found, &r->answer[i]) && wrong++ == 0)
+            *first = i;
+    }
+    leave(m);
+    return wrong;
+}
+
+static accel *build_in(const struct mode *m, const struct test_scene *s, const char *config)
+{
+    accel *a;
+    accel_error error;
+    enter(m);
+    const accel_status status = accel_build(&a, &s->scene, config, NULL, &error);
+    const accel_status valid = status == ACCEL_OK ? accel_validate(a, &error) : status;
+    leave(m);
+    if (status != ACCEL_OK || valid != ACCEL_OK)
+        fail_msg("%s, built rounding %s: %s", config, m->name, error.text);
+    return a;
+}
+
+/* Boxes are padded when they are built, so linear must be built in the same mode. Default configs
+ * are tried each time, the others take turns. */
+static void agree_in(const struct test_scene *s, const char *name, const struct mode *built,
+                     const struct mode *walked, const struct tested *list, size_t count)
+{
+    static struct rays r;
+    struct dice d = dice_from(test_seed(), 11);
+    accel *judge = build_in(built, s, "linear");
+    for (uint32_t i = 0; i < RAYS; i++)
+        r.ray[i] = ray_families[i % 4 == 3].make(s, judge, &d, i);
+    uint32_t first = 0;
+    shoot(judge, walked, &r, true, &first);
+    static size_t turn = 0;
+    turn++;
+    for (size_t i = 0; i < count; i++) {
+        if (!list[i].standard && (i + turn) % TURNS != 0)
+            continue;
+        accel *a = build_in(built, s, list[i].config);
+        const uint32_t wrong = shoot(a, walked, &r, false, &first);
+        accel_free(a);
+        if (wrong > 0)
+            fail_msg("%s on %s, built rounding %s, walked rounding %s: %u of %d differ; ray %a %a "
+                     "%a  %a %a %a",
+                     list[i].config, name, built->name, walked->name, wrong, RAYS,
+                     r.ray[first].org[0], r.ray[first].org[1], r.ray[first].org[2],
+                     r.ray[first].dir[0], r.ray[first].dir[1], r.ray[first].dir[2]);
+    }
+    accel_free(judge);
+}
+
+static void test_modes(void **state)
+{
+    (void)state;
+    static const char *const scenes[] = {"scale-1",   "scale-1e-310", "scale-1e-300",
+                                         "shift-1e9", "slivers",      "nested-spheres",
+                                         "lattice",   "mixed",        "scale-1e300"};
+    struct tested *list;
+    const size_t count = tested_configs(&list);
+    for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
+        struct test_scene s;
+        scene_make(&s, scene_maker_find(scenes[i]), test_seed());
+        for (size_t m = 0; m < MODES; m++) {
+            agree_in(&s, scenes[i], &modes[m], &modes[m], list, count);
+            agree_in(&s, scenes[i], &modes[0], &modes[m], list, count);
+            agree_in(&s, scenes[i], &modes[m], &modes[(m + 3) % MODES], list, count);
+        }
+        scene_free(&s);
+    }
+    free(list);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_modes)};
+    return cmocka_run_group_tests_name("floating", tests, NULL, NULL);
+}
