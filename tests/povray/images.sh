@@ -86,7 +86,7 @@ run_scene() {
     row=$(printf '%-14s %7s %6d %6d' "$name" "$size" "$(compare BM1)" "$(compare BM2)")
     for kind in "${kinds[@]}"; do
         file=${kind//[:,=]/-}
-        try "$file" "$ours" +BM3 +BX"$kind"
+        try "$file" "$ours" +BM3 Accelerator="$kind"
         grep -q '^Accelerator:      .*:\|^Accelerator:      [a-z]*$' "$file.log" ||
             echo "$name, $kind: the log has no statistics of the accelerator" >>wrong
         count=$(compare "$file")
@@ -103,11 +103,12 @@ verify_scene() {
     for kind in "${verified_kinds[@]}"; do
         file=verify-${kind//[:,=]/-}
         render "$file.log" "$size" "$ours" +I"$scene" +L"$(dirname "$scene")" \
-            +L"$build/scenes" +MB1 +BM3 +BX"$kind" Accelerator_Verify=On +O"$file.ppm" ||
+            +L"$build/scenes" +MB1 +BM3 Accelerator="$kind" Accelerator_Verify=On \
+            +O"$file.ppm" ||
             echo "$name, $kind: verifying ends with exit code $?" >>wrong
         q=$(statistic "$file.log" '^Accelerator verified:' 3)
         d=$(statistic "$file.log" '^Accelerator verified:' 5)
-        o=$(statistic "$file.log" '^Accelerator hits outside' 6)
+        o=$(statistic "$file.log" '^Accelerator outside:' 3)
         [ "${q:-0}" -gt 0 ] || echo "$name, $kind: no query was verified" >>wrong
         [ "${d:-1}" -eq 0 ] || echo "$name, $kind: $d of $q queries differ" >>wrong
         [ "$(compare "$file")" -eq 0 ] || echo "$name, $kind: verifying changes the image" >>wrong

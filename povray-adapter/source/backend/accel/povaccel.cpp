@@ -566,7 +566,7 @@ void Accelerator::GetStatistics(POVMS_Object& renderStats, const RenderStatistic
 	if(refused > 0)
 		text += str(format("Accelerator refused:  %13d   (rays that are not finite; searched linearly)\n") % refused);
 	if(outside > 0)
-		text += str(format("Accelerator hits outside their box: %d (exact only as far as the padding reaches)\n") % outside);
+		text += str(format("Accelerator outside:  %13d   (hits before their box: its padding may be too small)\n") % outside);
 	if(text.empty() == false)
 		renderStats.SetString(kPOVAttrib_AcceleratorText, text.c_str());
 }
