@@ -264,7 +264,7 @@ void Accelerator::CheckOptions(const SceneData& scene) const
 class AccelProgress
 {
 	public:
-		explicit AccelProgress(const SceneData& sd) : scene(sd), lastProgressTime(0) { }
+		AccelProgress(const SceneData& sd, Task& t) : scene(sd), task(t), lastProgressTime(0) { }
 
 		/// The library calls this; exceptions must not pass through it.
 		static bool Report(void *user, const char *phase, double done)
@@ -274,7 +274,7 @@ class AccelProgress
 			try
 			{
 				self.Send(phase, done);
-				Task::CurrentTaskCooperate();
+				self.task.Cooperate(); // CurrentTaskCooperate knows the tasks of the thread that made them only
 			}
 			catch(...)
 			{
@@ -292,6 +292,7 @@ class AccelProgress
 		}
 	private:
 		const SceneData& scene;
+		Task& task;
 		Timer timer;
 		POV_LONG lastProgressTime;
 		std::exception_ptr stopped;
@@ -328,7 +329,7 @@ static void Test_Object(accel_probe *probe)
 	}
 }
 
-void Accelerator::Build(const SceneData& scene)
+void Accelerator::Build(const SceneData& scene, Task& task)
 {
 	vector<accel_box> boxes;
 
@@ -351,7 +352,7 @@ void Accelerator::Build(const SceneData& scene)
 	geometry.objects.intersect = Test_Object;
 	geometry.objects.user = NULL;
 
-	AccelProgress progress(scene);
+	AccelProgress progress(scene, task);
 	const accel_scene library_scene = { &geometry, 1 };
 	const accel_hooks hooks = { &progress, NULL, &AccelProgress::Report };
 	accel_error error;

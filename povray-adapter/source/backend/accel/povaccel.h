@@ -28,6 +28,7 @@ namespace pov
 {
 
 class SceneData;
+class Task;
 class Trace;
 struct AccelQuery;
 
@@ -44,8 +45,8 @@ class Accelerator
 		/// Warns of options without effect. Throws if the configuration is not valid.
 		void CheckOptions(const SceneData& scene) const;
 
-		/// Builds the structure over the objects of the scene. Throws if it cannot, or if the user stops it.
-		void Build(const SceneData& scene);
+		/// Builds the structure over the objects of the scene. Throws if it cannot, or if the user stops the task.
+		void Build(const SceneData& scene, Task& task);
 
 		/// Finds the object nearest along a ray, nearer than bestisect.Depth, as a linear search would.
 		bool FindIntersection(Trace& trace, TraceThreadData *thread, Intersection& bestisect, const Ray& ray) const;
