@@ -6,6 +6,7 @@
 
 #include "words.h"
 
+#include <ctype.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -24,12 +25,16 @@ accel_arguments accel_arguments_start(const accel_command *command, int argc, ch
 
 int accel_complain(const accel_command *command, const char *format, ...)
 {
+    char text[1000];
     va_list list;
     va_start(list, format);
-    fprintf(stderr, "accel %s: ", command->name);
-    vfprintf(stderr, format, list);
-    fputc('\n', stderr);
+    vsnprintf(text, sizeof text, format, list);
     va_end(list);
+    /* one line, whatever is in a file's name */
+    for (char *c = text; *c != '\0'; c++) {
+        *c = iscntrl((unsigned char)*c) ? '?' : *c;
+    }
+    fprintf(stderr, "accel %s: %s\n", command->name, text);
     return ACCEL_EXIT_BAD;
 }
 

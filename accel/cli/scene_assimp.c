@@ -9,6 +9,7 @@
 #include <assimp/cimport.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
+#include <ctype.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -129,7 +130,10 @@ static void send_trouble(FILE *pipe, const char *trouble)
 {
     accel_file_verdict verdict = {{0}, 0, 0};
     snprintf(verdict.trouble, sizeof verdict.trouble, "%s", trouble);
-    verdict.trouble[strcspn(verdict.trouble, "\r\n")] = '\0';
+    /* assimp quotes the file */
+    for (char *c = verdict.trouble; *c != '\0'; c++) {
+        *c = isprint((unsigned char)*c) ? *c : '?';
+    }
     accel_child_write(pipe, &verdict, sizeof verdict);
 }
 

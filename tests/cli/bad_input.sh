@@ -48,9 +48,9 @@ for count in 5 2147483647 4294967295 18446744073709551615; do
     complains "OFF header promises" info count.off
 done
 sed 's/element vertex 4/element vertex -1/' text.ply >count.ply
-complains "cannot be read" info count.ply
+complains "PLY header cannot be read in line" info count.ply
 sed 's/property list uchar int/property list uchar toast/' text.ply >count.ply
-complains "cannot be read" info count.ply
+complains "PLY header cannot be read in line" info count.ply
 sed 's/^3 1 2 3/3 1 2 99999/' text.ply >index.ply
 complains "vertex" info index.ply
 sed 's/^3 1 2 3/3 1 2 -1/' text.ply >index.ply
@@ -73,7 +73,13 @@ complains "holds no triangle" info lines.obj
 # The other subcommands load in the same way.
 complains "No such file or directory" check missing.ply
 complains "No such file or directory" trace missing.ply -o x.exr
-complains "cannot be read" trace count.ply -o x.exr
+complains "PLY header cannot be read in line" trace count.ply -o x.exr
 complains "Nothing was built" check one -a nokind
 complains "Nothing was built" trace one -o x.exr -a nokind
+
+# A complaint is one line whatever a name or a file holds.
+complains "No such file or directory" info $'new\nline\e[2J.ply'
+printf 'v \033[2J 0 0\nf 1 1 1\n' >escape.obj
+expect 2 info escape.obj
+[ "$(tr -d '[:print:]\n' <err | wc -c)" = 0 ] || fail "a complaint holds the file's control bytes"
 finish
