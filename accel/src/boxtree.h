@@ -7,19 +7,22 @@
  * by side, and what they are: an inner node, or a leaf whose meaning is the kind's. Invariant: a
  * child's box contains the padded boxes of all primitives below it.
  *
- * Most rays are not parallel to an axis and start at tmin >= 0. For these both boxes are tested at
- * once, against a little more than S. Let s be S of a box, meeting the query: s.a <= s.z and
- * s.a <= limit. As s.z >= tmin >= 0, every far crossing t1 is >= 0, so scaling 1 / dir by
- * 1 + BOXTREE_SLACK takes it up by at least BOXTREE_SLACK - 4u relatively, u = 2^-53 (2^-52 under
- * a directed rounding): more than QUERY_GROWTH and the growth's own rounding. Near crossings are
- * taken raw: where one is positive it exceeds its grown value by less than half the slack, which
- * the slack of the far side and of the cap (tmax and limit, scaled up in the same way) makes up
- * for; where it is not, it is no greater than tmin. Where a product is subnormal, growth does
- * nothing and rounding is monotone. So every such box is met here too; boxes met in vain cost only
- * time.
+ * Most rays are not parallel to an axis, start at tmin >= 0 and round to nearest. For these both
+ * boxes are tested at once, against a little more than S. Let s be S of a box that may hold a hit:
+ * s.a <= s.z, s.a <= limit, and s.z > tmin, as the ray's interval is open. As s.z > tmin >= 0,
+ * every far crossing t1 is >= 0, so scaling 1 / dir by 1 + BOXTREE_SLACK takes it up by at least
+ * BOXTREE_SLACK - 4u relatively, u = 2^-53: more than QUERY_GROWTH and the growth's own rounding.
+ * Near crossings are taken raw: where one is positive it exceeds its grown value by less than half
+ * the slack, which the slack of the far side and of the cap (tmax and limit, scaled up in the same
+ * way) makes up for; where it is not, it is no greater than tmin. Where a product is subnormal,
+ * rounding to nearest undoes the growth, and is monotone; a directed rounding would make the growth
+ * a whole step, hence the plain test there. So every such box is met here too; boxes met in vain
+ * cost only time.
  */
 #ifndef ACCEL_BOXTREE_H
 #define ACCEL_BOXTREE_H
+
+#include <fenv.h>
 
 #include "pair.h"
 #include "query.h"
@@ -162,11 +165,17 @@ __attribute__((always_inline)) static inline void boxtree_walk_as(const accel *a
     }
 }
 
-/* Visits every leaf whose box's S is not empty and does not begin after q->limit. */
+/* May both boxes be tested at once? */
+static inline bool boxtree_is_common(const struct query *q)
+{
+    return q->parallel == 0 && q->tmin >= 0.0 && fegetround() == FE_TONEAREST;
+}
+
+/* Visits every leaf whose box may hold a hit: S is not empty and does not begin after q->limit. */
 static inline void boxtree_walk(const accel *a, const struct boxtree_node *nodes, struct query *q,
                                 boxtree_visit *visit)
 {
-    if (q->parallel == 0 && q->tmin >= 0.0)
+    if (boxtree_is_common(q))
         boxtree_walk_as(a, nodes, q, visit, true);
     else
         boxtree_walk_as(a, nodes, q, visit, false);
