@@ -4,70 +4,19 @@
  * numbers flushed to zero, each kind answers as linear does in that mode, and the environment is
  * left as it was. Structures built in one mode may be walked in another.
  */
-#include <fenv.h>
 #include <stdlib.h>
 
 #include "cmocka_all.h"
 #include "compare.h"
+#include "modes.h"
 
-#if defined(__SSE2__)
-#include <xmmintrin.h>
-#define FLUSH_BITS 0x8040u /* FTZ and DAZ of MXCSR */
-static unsigned flush_get(void)
-{
-    return _mm_getcsr() & FLUSH_BITS;
-}
-static void flush_set(unsigned bits)
-{
-    _mm_setcsr((_mm_getcsr() & ~FLUSH_BITS) | bits);
-}
-#else
-#define FLUSH_BITS 0u
-static unsigned flush_get(void)
-{
-    return 0;
-}
-static void flush_set(unsigned bits)
-{
-    (void)bits;
-}
-#endif
-
-struct mode {
-    const char *name;
-    int rounding;
-    unsigned flush;
-};
-
-static const struct mode modes[] = {
-    {"to nearest", FE_TONEAREST, 0},
-    {"up", FE_UPWARD, 0},
-    {"down", FE_DOWNWARD, 0},
-    {"to zero", FE_TOWARDZERO, 0},
-    {"to nearest, flushing", FE_TONEAREST, FLUSH_BITS},
-    {"up, flushing", FE_UPWARD, FLUSH_BITS},
-    {"to nearest, results flushed", FE_TONEAREST, FLUSH_BITS & 0x8000u},
-    {"to nearest, operands flushed", FE_TONEAREST, FLUSH_BITS & 0x0040u},
-};
-
-enum { MODES = sizeof modes / sizeof *modes };
-
-static void enter(const struct mode *m)
-{
-    fesetround(m->rounding);
-    flush_set(m->flush);
-}
+enum { RAYS = 120, TURNS = 8 };
 
 static void leave(const struct mode *m)
 {
-    const bool kept = fegetround() == m->rounding && flush_get() == m->flush;
-    fesetround(FE_TONEAREST);
-    flush_set(0);
-    if (!kept)
+    if (!mode_leave_kept(m))
         fail_msg("the floating-point environment '%s' was not kept", m->name);
 }
-
-enum { RAYS = 120, TURNS = 8 };
 
 struct rays {
     accel_ray ray[RAYS];
@@ -79,7 +28,7 @@ static uint32_t shoot(const accel *a, const struct mode *m, struct rays *r, bool
                       uint32_t *first)
 {
     uint32_t wrong = 0;
-    enter(m);
+    mode_enter(m);
     for (uint32_t i = 0; i < RAYS; i++) {
         const struct answer found = ask(a, &r->ray[i], i % 4 == 0);
         if (judge)
@@ -95,7 +44,7 @@ static accel *build_in(const struct mode *m, const struct test_scene *s, const c
 {
     accel *a;
     accel_error error;
-    enter(m);
+    mode_enter(m);
     const accel_status status = accel_build(&a, &s->scene, config, NULL, &error);
     const accel_status valid = status == ACCEL_OK ? accel_validate(a, &error) : status;
     leave(m);
