@@ -1,0 +1,146 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "exact.h"
+
+static const quad unit = 0x1p-53;
+
+/* The bounds are first order: doubled, they hold. */
+static const quad safety = 2;
+
+static quad absolute(quad x)
+{
+    return x < 0 ? -x : x;
+}
+
+static quad greater(quad a, quad b)
+{
+    return a > b ? a : b;
+}
+
+static quad lesser(quad a, quad b)
+{
+    return a < b ? a : b;
+}
+
+/* Newton's steps from double's root: each doubles the bits. */
+static quad root(quad x)
+{
+    if (!(x > 0))
+        return 0;
+    quad y = sqrt((double)x);
+    if (!(y > 0))
+        return 0;
+    for (int i = 0; i < 3; i++)
+        y = (y + x / y) / 2;
+    return y;
+}
+
+/* A triangle as the ray sees it: the ray is the line x = y = 0. */
+struct seen {
+    quad x[3], y[3], z[3]; /* z: t of the plane through the vertex */
+    quad size;             /* R */
+};
+
+static int longest(const double *d)
+{
+    const int k = fabs(d[1]) > fabs(d[0]) ? 1 : 0;
+    return fabs(d[2]) > fabs(d[k]) ? 2 : k;
+}
+
+static struct seen see(const accel_ray *ray, const double *vertices)
+{
+    struct seen s = {.size = 0};
+    const int kz = longest(ray->dir), kx = (kz + 1) % 3, ky = (kz + 2) % 3;
+    for (int i = 0; i < 3; i++) {
+        quad p[3];
+        for (int k = 0; k < 3; k++) {
+            p[k] = (quad)vertices[3 * i + k] - (quad)ray->org[k];
+            s.size = greater(s.size, absolute(p[k]));
+        }
+        s.z[i] = p[kz] / (quad)ray->dir[kz];
+        s.x[i] = p[kx] - s.z[i] * (quad)ray->dir[kx];
+        s.y[i] = p[ky] - s.z[i] * (quad)ray->dir[ky];
+    }
+    return s;
+}
+
+static quad edge_bound(const struct seen *s, int j, int k)
+{
+    const quad d = 6 * unit * s->size;
+    const quad sum = absolute(s->x[j]) + absolute(s->y[j]) + absolute(s->x[k]) + absolute(s->y[k]);
+    const quad products = absolute(s->x[k] * s->y[j]) + absolute(s->y[k] * s->x[j]);
+    return safety * (d * sum + 3 * unit * products);
+}
+
+static struct exact undecided(const struct seen *s, quad margin)
+{
+    quad first = s->z[0], last = s->z[0];
+    for (int i = 1; i < 3; i++) {
+        first = lesser(first, s->z[i]);
+        last = greater(last, s->z[i]);
+    }
+    return (struct exact){UNDECIDED, 0, 0, first - margin, last + margin};
+}
+
+struct exact exact_triangle(const accel_ray *ray, const double *vertices)
+{
+    const struct seen s = see(ray, vertices);
+    quad e[3], bound[3], sum = 0, doubt = 0, scaled = 0, far = 0;
+    int positive = 0, negative = 0;
+    for (int i = 0; i < 3; i++) {
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+        e[i] = s.x[k] * s.y[j] - s.y[k] * s.x[j];
+        bound[i] = edge_bound(&s, j, k);
+        positive += e[i] > bound[i];
+        negative += e[i] < -bound[i];
+        sum += e[i];
+        doubt += bound[i];
+        scaled += e[i] * s.z[i];
+        far = greater(far, absolute(s.z[i]));
+    }
+    const quad margin = safety * 10 * unit * far;
+    if (positive > 0 && negative > 0)
+        return (struct exact){NO_HIT, 0, 0, 0, 0};
+    if (positive + negative < 3)
+        return undecided(&s, margin);
+    const quad t = scaled / sum;
+    quad off = margin;
+    for (int i = 0; i < 3; i++)
+        off += bound[i] * absolute(s.z[i] - t) / (absolute(sum) - lesser(doubt, absolute(sum) / 2));
+    return (struct exact){HIT, t, off, t - off, t + off};
+}
+
+/* The library's discriminant r^2 - |f + (b / a) d|^2 is off by at most 16 u |f| (2 |nearest| + 16 u
+ * |f|) + 4 u r^2 (each component of the nearest point by 8 u |f|), its product with a by 4 u of it;
+ * t by what that moves the root, and by the roundings of c = |f|^2 - r^2 over the root. */
+void exact_sphere(const accel_ray *ray, const double *sphere, struct exact out[2])
+{
+    quad ff = 0, a = 0, b = 0, nn = 0, f[3];
+    const quad r = sphere[3];
+    for (int k = 0; k < 3; k++) {
+        f[k] = (quad)ray->org[k] - (quad)sphere[k];
+        ff += f[k] * f[k];
+        a += (quad)ray->dir[k] * (quad)ray->dir[k];
+        b -= f[k] * (quad)ray->dir[k];
+    }
+    for (int k = 0; k < 3; k++) {
+        const quad n = f[k] + b / a * (quad)ray->dir[k];
+        nn += n * n;
+    }
+    const quad disc = r * r - nn, size = root(ff);
+    const quad doubt =
+        safety * (16 * unit * size * (2 * root(nn) + 16 * unit * size) + 4 * unit * (r * r + nn));
+    const quad half = root(absolute(disc) / a);
+    const quad span = half + root(doubt / a) + safety * 16 * unit * (absolute(b / a) + size);
+    for (int i = 0; i < 2; i++) {
+        out[i] = (struct exact){NO_HIT, 0, 0, b / a - span, b / a + span};
+        if (absolute(disc) <= 2 * doubt)
+            out[i].verdict = UNDECIDED;
+        else if (disc > 0) {
+            out[i].verdict = HIT;
+            out[i].t = b / a + (i ? half : -half);
+            out[i].off = doubt / (half * a) +
+                         safety * 16 * unit * (ff + r * r) / (a * (absolute(b / a) + half)) +
+                         safety * 16 * unit * (absolute(b / a) + half);
+        }
+    }
+}

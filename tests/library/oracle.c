@@ -1,0 +1,178 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * The library against an independent closest-hit search in 113 bits: where no rounding can change
+ * the answer, every kind must give it, and t must be within the derived bound. What is left
+ * undecided is counted and printed.
+ */
+#include <stdlib.h>
+
+#include "cmocka_all.h"
+#include "compare.h"
+#include "exact.h"
+
+/* What the exact search says of a ray. */
+struct judgement {
+    enum verdict verdict;
+    uint32_t geom, prim; /* of a hit */
+    struct exact hit;
+    quad undecided; /* where the first undecided pair may begin */
+    quad second;    /* where the second decided hit may begin */
+};
+
+static quad infinity(void)
+{
+    return (quad)(double)INFINITY;
+}
+
+/* Enters one pair. Hits that may or may not lie in the open interval are undecided. */
+static void enter(struct judgement *j, const accel_ray *ray, const struct exact *e, uint32_t geom,
+                  uint32_t prim)
+{
+    const quad first = e->verdict == HIT ? e->t - e->off : e->first;
+    const quad last = e->verdict == HIT ? e->t + e->off : e->last;
+    if (e->verdict == NO_HIT || last <= (quad)ray->tmin || first >= (quad)ray->tmax)
+        return;
+    if (e->verdict == UNDECIDED || first <= (quad)ray->tmin || last >= (quad)ray->tmax) {
+        j->undecided = first < j->undecided ? first : j->undecided;
+        return;
+    }
+    if (j->verdict == HIT && j->hit.t <= e->t) {
+        j->second = first < j->second ? first : j->second;
+        return;
+    }
+    if (j->verdict == HIT)
+        j->second = j->hit.t - j->hit.off < j->second ? j->hit.t - j->hit.off : j->second;
+    j->verdict = HIT;
+    j->hit = *e;
+    j->geom = geom;
+    j->prim = prim;
+}
+
+static struct judgement judge(const struct test_scene *s, const accel_ray *ray)
+{
+    struct judgement j = {.verdict = NO_HIT, .undecided = infinity(), .second = infinity()};
+    for (uint32_t g = 0; g < s->count; g++) {
+        const struct part *p = &s->part[g];
+        for (uint32_t i = 0; i < p->count; i++) {
+            if (p->type == ACCEL_TRIANGLES) {
+                const struct exact e = exact_triangle(ray, p->data + 9 * (size_t)i);
+                enter(&j, ray, &e, g, i);
+            } else {
+                struct exact e[2];
+                exact_sphere(ray, p->data + 4 * (size_t)i, e);
+                enter(&j, ray, &e[0], g, i);
+                enter(&j, ray, &e[1], g, i);
+            }
+        }
+    }
+    const quad last = j.verdict == HIT ? j.hit.t + j.hit.off : infinity();
+    if (j.undecided < infinity() && j.undecided <= last)
+        j.verdict = UNDECIDED;
+    if (j.verdict == HIT && j.second <= last)
+        j.verdict = UNDECIDED;
+    return j;
+}
+
+static bool is_right(const struct judgement *j, bool hit, const accel_hit *h)
+{
+    if (j->verdict == UNDECIDED)
+        return true;
+    if (j->verdict == NO_HIT)
+        return !hit;
+    const quad off = (quad)h->t - j->hit.t;
+    return hit && h->geom == j->geom && h->prim == j->prim && off <= j->hit.off &&
+           -off <= j->hit.off;
+}
+
+static void complain(const char *config, const accel_ray *r, const struct judgement *j, bool hit,
+                     const accel_hit *h)
+{
+    fprintf(stderr, "%s: ray %a %a %a  %a %a %a\n", config, r->org[0], r->org[1], r->org[2],
+            r->dir[0], r->dir[1], r->dir[2]);
+    fprintf(stderr, "  exact: verdict %d, %u/%u t=%.17g +- %.3g\n", (int)j->verdict, j->geom,
+            j->prim, (double)j->hit.t, (double)j->hit.off);
+    if (hit)
+        fprintf(stderr, "  found: %u/%u t=%.17g, off by %.3g\n", h->geom, h->prim, h->t,
+                (double)((quad)h->t - j->hit.t));
+}
+
+enum { MOST_KINDS = 32 };
+
+struct structures {
+    accel *a[MOST_KINDS];
+    const char *name[MOST_KINDS];
+    size_t count;
+};
+
+static struct structures build_all(const struct test_scene *s)
+{
+    struct structures all;
+    const accel_kind_info *const *kind = accel_kinds(&all.count);
+    assert_true(all.count <= MOST_KINDS);
+    for (size_t i = 0; i < all.count; i++) {
+        all.name[i] = kind[i]->name;
+        all.a[i] = must_build(s, kind[i]->name);
+    }
+    return all;
+}
+
+/* `generic`: only rays that aim at nothing in particular. Returns the share left undecided. */
+static double try_scene(const char *name, uint64_t count, bool generic)
+{
+    struct test_scene s;
+    scene_make(&s, scene_maker_find(name), test_seed());
+    const struct structures all = build_all(&s);
+    struct dice d = dice_from(test_seed(), 21);
+    uint64_t undecided = 0, hits = 0, wrong = 0;
+    for (uint64_t i = 0; i < count; i++) {
+        const accel_ray ray = ray_families->make(&s, all.a[0], &d, generic ? 0 : i);
+        const struct judgement j = judge(&s, &ray);
+        undecided += j.verdict == UNDECIDED;
+        hits += j.verdict == HIT;
+        for (size_t k = 0; k < all.count; k++) {
+            accel_hit h;
+            const bool hit = accel_closest(all.a[k], &ray, &h, NULL);
+            if (!is_right(&j, hit, &h) && wrong++ == 0)
+                complain(all.name[k], &ray, &j, hit, &h);
+        }
+    }
+    for (size_t k = 0; k < all.count; k++)
+        accel_free(all.a[k]);
+    scene_free(&s);
+    print_message("  %-14s %s rays %5llu, hits %5llu, undecided %6.2f %%, wrong %llu\n", name,
+                  generic ? "generic" : "mixed  ", (unsigned long long)count,
+                  (unsigned long long)hits, 100.0 * (double)undecided / (double)count,
+                  (unsigned long long)wrong);
+    assert_int_equal(wrong, 0);
+    assert_true(hits > count / 50);
+    return (double)undecided / (double)count;
+}
+
+/* Scenes of triangles and spheres alone. */
+static const char *const scenes[] = {"soup",      "sizes",     "slivers",        "scale-1e-150",
+                                     "scale-1e9", "shift-1e6", "nested-spheres", "terrain",
+                                     "ball-mesh", "scale-1e38"};
+
+static void test_generic(void **state)
+{
+    (void)state;
+    assert_true(try_scene("soup", scaled_count(600), true) < 0.01);
+    assert_true(try_scene("terrain", scaled_count(300), true) < 0.01);
+    assert_true(try_scene("nested-spheres", scaled_count(300), true) < 0.01);
+}
+
+static void test_mixed(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++)
+        assert_true(try_scene(scenes[i], scaled_count(250), false) < 0.7);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_generic),
+        cmocka_unit_test(test_mixed),
+    };
+    return cmocka_run_group_tests_name("oracle", tests, NULL, NULL);
+}
