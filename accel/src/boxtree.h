@@ -7,27 +7,13 @@
  * by side, and what they are: an inner node, or a leaf whose meaning is the kind's. Invariant: a
  * child's box contains the padded boxes of all primitives below it.
  *
- * Most rays are not parallel to an axis, start at tmin >= 0 and round to nearest. For these both
- * boxes are tested at once, against a little more than S. Let s be S of a box that may hold a hit:
- * s.a <= s.z, s.a <= limit, and s.z > tmin, as the ray's interval is open. As s.z > tmin >= 0,
- * every far crossing t1 is >= 0, so scaling 1 / dir by 1 + BOXTREE_SLACK takes it up by at least
- * BOXTREE_SLACK - 4u relatively, u = 2^-53: more than QUERY_GROWTH and the growth's own rounding.
- * Near crossings are taken raw: where one is positive it exceeds its grown value by less than half
- * the slack, which the slack of the far side and of the cap (tmax and limit, scaled up in the same
- * way) makes up for; where it is not, it is no greater than tmin. Where a product is subnormal,
- * rounding to nearest undoes the growth, and is monotone; a directed rounding would make the growth
- * a whole step, hence the plain test there. So every such box is met here too; boxes met in vain
- * cost only time.
+ * For common rays (query.h) both boxes are tested at once, with slack; for the others, S of each.
  */
 #ifndef ACCEL_BOXTREE_H
 #define ACCEL_BOXTREE_H
 
-#include <fenv.h>
-
 #include "pair.h"
 #include "query.h"
-
-#define BOXTREE_SLACK (8 * QUERY_GROWTH)
 
 /* Builders keep every leaf at this depth or above it: the walk's stack holds one entry a level. */
 enum { BOXTREE_MAX_DEPTH = 96 };
@@ -70,22 +56,17 @@ struct boxtree_ray {
     int near[3];     /* where in a node's planes the near ones of each axis stand: 0 or 2 */
 };
 
-static inline double boxtree_cap(const struct query *q)
-{
-    return (q->limit < q->tmax ? q->limit : q->tmax) * (1.0 + BOXTREE_SLACK);
-}
-
 static inline struct boxtree_ray boxtree_ray_from(const struct query *q)
 {
     struct boxtree_ray r;
     for (int k = 0; k < 3; k++) {
         r.org[k] = pair_both(q->org[k]);
         r.inv[k] = pair_both(q->inv[k]);
-        r.inv_far[k] = pair_both(q->inv[k] * (1.0 + BOXTREE_SLACK));
+        r.inv_far[k] = pair_both(q->inv[k] * (1.0 + QUERY_SLACK));
         r.near[k] = q->sign >> k & 1 ? 2 : 0;
     }
     r.tmin = pair_both(q->tmin);
-    r.cap = pair_both(boxtree_cap(q));
+    r.cap = pair_both(query_cap(q));
     return r;
 }
 
@@ -140,7 +121,7 @@ __attribute__((always_inline)) static inline void boxtree_walk_as(const accel *a
             visit(a, q, at);
             if (query_done(q))
                 return;
-            ray.cap = pair_both(boxtree_cap(q));
+            ray.cap = pair_both(query_cap(q));
         } else {
             const struct boxtree_node *node = &nodes[at.first];
             double begin[2];
@@ -161,21 +142,15 @@ __attribute__((always_inline)) static inline void boxtree_walk_as(const accel *a
             if (depth == 0)
                 return;
             at = stack[--depth].child;
-        } while (stack[depth].begin > (common ? boxtree_cap(q) : q->limit));
+        } while (stack[depth].begin > (common ? query_cap(q) : q->limit));
     }
-}
-
-/* May both boxes be tested at once? */
-static inline bool boxtree_is_common(const struct query *q)
-{
-    return q->parallel == 0 && q->tmin >= 0.0 && fegetround() == FE_TONEAREST;
 }
 
 /* Visits every leaf whose box may hold a hit: S is not empty and does not begin after q->limit. */
 static inline void boxtree_walk(const accel *a, const struct boxtree_node *nodes, struct query *q,
                                 boxtree_visit *visit)
 {
-    if (boxtree_is_common(q))
+    if (query_common(q))
         boxtree_walk_as(a, nodes, q, visit, true);
     else
         boxtree_walk_as(a, nodes, q, visit, false);

@@ -25,6 +25,8 @@
 #ifndef ACCEL_QUERY_H
 #define ACCEL_QUERY_H
 
+#include <fenv.h>
+
 #include "box.h"
 #include "primitives.h"
 
@@ -93,12 +95,13 @@ static inline struct interval query_interval(const struct query *q, double near,
     return (struct interval){a > q->tmin ? a : q->tmin, z < q->tmax ? z : q->tmax};
 }
 
-/* S of a box. The comparisons are written so that a NaN (0 * inf, where 1 / dir overflows or the
- * direction is 0) leaves the interval as it is, which is conservative. */
-static inline struct interval query_box(const struct query *q, const accel_box *box)
+/* The part of the ray's line inside a box: raw values of t. The comparisons are written so that a
+ * NaN (0 * inf, where 1 / dir overflows or the direction is 0) leaves it as it is, which is
+ * conservative. */
+static inline struct interval query_slabs(const struct query *q, const accel_box *box)
 {
     const double *plane = (const double *)box;
-    double near = -(double)INFINITY, far = (double)INFINITY;
+    struct interval raw = {-(double)INFINITY, (double)INFINITY};
     for (int k = 0; k < 3; k++) {
         if (q->parallel >> k & 1) {
             if (!(box->lo[k] <= q->org[k] && q->org[k] <= box->hi[k]))
@@ -107,16 +110,48 @@ static inline struct interval query_box(const struct query *q, const accel_box *
         }
         const double t0 = (plane[q->near[k]] - q->org[k]) * q->inv[k];
         const double t1 = (plane[3 - q->near[k] + 2 * k] - q->org[k]) * q->inv[k];
-        near = t0 > near ? t0 : near;
-        far = t1 < far ? t1 : far;
+        raw.a = t0 > raw.a ? t0 : raw.a;
+        raw.z = t1 < raw.z ? t1 : raw.z;
     }
-    return query_interval(q, near, far);
+    return raw;
+}
+
+/* S of a box. */
+static inline struct interval query_box(const struct query *q, const accel_box *box)
+{
+    const struct interval raw = query_slabs(q, box);
+    return query_interval(q, raw.a, raw.z);
 }
 
 /* May something whose S is `s` still matter? */
 static inline bool query_meets(const struct query *q, struct interval s)
 {
     return s.a <= s.z && s.a <= q->limit;
+}
+
+/* Walks may test against a little more than S where that is cheaper; what is met in vain costs only
+ * time. For common rays, which are parallel to no axis, start at tmin >= 0 and round to nearest, let
+ * begin be the greatest of tmin and the raw near crossings, and end the least raw far crossing,
+ * scaled up by 1 + QUERY_SLACK. Where S = [a, z] meets the query and may hold a hit, begin <= end
+ * and begin <= query_cap.
+ * Proof: z > tmin >= 0, as the ray's interval is open, so no far crossing is negative, and the slack
+ * takes each up by at least QUERY_SLACK - 4u relatively, u = 2^-53, whether it is multiplied to t
+ * or to 1 / dir: more than QUERY_GROWTH and what growth was rounded by; hence end >= z. If begin is
+ * tmin or not positive, begin <= a. Otherwise begin exceeds a by less than half the slack,
+ * relatively, which the slack makes up for in end and in the cap. Where a product is subnormal,
+ * rounding to nearest undoes the growth, and is monotone; a directed rounding would make the growth
+ * a whole step, hence S itself there. */
+#define QUERY_SLACK (8 * QUERY_GROWTH)
+
+static inline bool query_common(const struct query *q)
+{
+    return q->parallel == 0 && q->tmin >= 0.0 && fegetround() == FE_TONEAREST;
+}
+
+/* Where what matters to a common ray begins at the latest. */
+static inline double query_cap(const struct query *q)
+{
+    return (q->limit < q->tmax ? q->limit : q->tmax) * (1.0 + QUERY_SLACK);
 }
 
 /* Is the query answered, whatever else may come? */
