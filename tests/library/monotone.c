@@ -128,7 +128,7 @@ __attribute__((noinline)) static bool pair_meets(const struct query *q, const ac
 {
     struct boxtree_node node;
     double begin[2];
-    if (!boxtree_is_common(q))
+    if (!query_common(q))
         return true;
     boxtree_set(&node, 0, small, (struct boxtree_child){0, 1});
     boxtree_set(&node, 1, large, (struct boxtree_child){0, 1});
@@ -137,7 +137,7 @@ __attribute__((noinline)) static bool pair_meets(const struct query *q, const ac
     const bool must[2] = {may_hold_hit(q, small), may_hold_hit(q, large)};
     /* On the way down, and when it comes back from the stack. */
     for (int i = 0; i < 2; i++)
-        if (must[i] && (!(meets >> i & 1) || begin[i] > boxtree_cap(q)))
+        if (must[i] && (!(meets >> i & 1) || begin[i] > query_cap(q)))
             return false;
     return true;
 }
