@@ -20,7 +20,7 @@
 /* A right answer is outside with a chance of 6e-5 for each comparison; seeds are fixed. */
 #define BOUND 4.0
 
-enum { SEEDS = 32 };
+enum { SEEDS = 32, DISCS = 60 };
 
 /* A box of unit faces or parts of it, two triangles each. */
 typedef struct room {
@@ -164,7 +164,7 @@ static void plates(void **state)
     const accel_light light = face_light(&r, 3, 0.0);
     const accel_photon_run run = {
         .lights = {&light, 1}, .photons = 1000000, .seed = 1, .threads = 2};
-    accel *a = build(&r.scene, "octree");
+    accel *a = build(&r.scene, "linear");
     accel_photons photons = trace(a, &r.scene, &run);
     const double n = run.photons, right = plates_form_factor(1.0, 1.0);
     assert_statistic("form factor of opposite faces of a cube", (double)photons.count / n, right,
@@ -178,7 +178,7 @@ static void plates(void **state)
     double by_paths[3], by_nearest[3];
     accel_query query = {.user = NULL};
     accel_error error;
-    assert_true(accel_irradiance_paths(&photons, &run, receivers, radius, "octree", by_paths,
+    assert_true(accel_irradiance_paths(&photons, &run, receivers, radius, "linear", by_paths,
                                        &query, &error));
     assert_true(accel_irradiance_nearest(&photons, &run, receivers, radius, 1000000, by_nearest));
     for (int i = 0; i < 3; i++) {
@@ -207,7 +207,7 @@ static void furnace(void **state)
         .lights = {lights, 6}, .photons = 10000, .reflectance = 0.5, .threads = 2};
     const accel_receiver points[2] = {{{0.5, 0.0, 0.5}, {0, 1, 0}}, {{0.0, 0.3, 0.6}, {1, 0, 0}}};
     const accel_receivers receivers = {points, 2};
-    accel *a = build(&r.scene, "octree");
+    accel *a = build(&r.scene, "linear");
     /* few photons each, over the whole floor: a bias of 1/20 would show */
     accel_receiver floor[64];
     for (int i = 0; i < 64; i++) {
@@ -222,7 +222,7 @@ static void furnace(void **state)
         accel_error error;
         assert_int_equal(photons.escaped, 0); /* the box is closed */
         mean[i] = (double)photons.count * accel_photon_power(&run, 0) / 6.0;
-        assert_true(accel_irradiance_paths(&photons, &run, receivers, 0.2, "octree", by_paths,
+        assert_true(accel_irradiance_paths(&photons, &run, receivers, 0.2, "linear", by_paths,
                                            &query, &error));
         assert_true(accel_irradiance_nearest(&photons, &run, receivers, 0.3, 1500, by_nearest));
         double by_few[64];
@@ -258,7 +258,7 @@ static void integrating_sphere(void **state)
     const accel_light light = {{1.5, 2.0, 3.0}, {{0.5, 0, 0}, {0, 0.5, 0}}, 1.0};
     const accel_photon_run run = {
         .lights = {&light, 1}, .photons = 100000, .reflectance = 0.8, .seed = 3, .threads = 2};
-    accel *a = build(&scene, "octree");
+    accel *a = build(&scene, "linear");
     accel_photons photons = trace(a, &scene, &run);
     double sum[3] = {0.0, 0.0, 0.0};
     size_t count = 0;
@@ -287,7 +287,7 @@ static void energy_balance(void **state)
     const accel_light lights[2] = {face_light(&r, 4, 0.0), face_light(&r, 5, 0.0)};
     const accel_photon_run run = {
         .lights = {lights, 2}, .photons = 50000, .reflectance = 0.7, .seed = 5, .threads = 2};
-    accel *a = build(&r.scene, "octree");
+    accel *a = build(&r.scene, "linear");
     accel_photons photons = trace(a, &r.scene, &run);
     uint64_t paths = 0;
     double first = 0.0, reflected = 0.0;
@@ -316,7 +316,18 @@ static void energy_balance(void **state)
     accel_free(a);
 }
 
-/* Every kind, and any number of threads, stores the same bits. */
+/* Discs on the faces of a corner cube of the first cluster, many of them across each other. */
+static void make_discs(accel_receiver discs[DISCS])
+{
+    for (int i = 0; i < DISCS; i++) {
+        const double along = (i / 3) * 0.1;
+        discs[i] = (accel_receiver){.at = {along, 14.0 + along, along}};
+        discs[i].at[i % 3] = i % 3 == 1 ? 15.0 : 0.0;
+        discs[i].normal[i % 3] = i % 3 == 1 ? 1.0 : -1.0;
+    }
+}
+
+/* Every kind, and any number of threads, stores the same bits and finds the same irradiance. */
 static void same_bits(void **state)
 {
     (void)state;
@@ -327,6 +338,9 @@ static void same_bits(void **state)
     accel_photon_run run = {.lights = {lights, 0}, .photons = 3000, .reflectance = 0.8, .seed = 7};
     run.lights.count = accel_scene_lights("cubes:gap=4", &loaded.scene, lights);
     assert_int_equal(run.lights.count, 2);
+    accel_receiver discs[DISCS];
+    make_discs(discs);
+    double first[DISCS], again[DISCS], sum = 0.0;
     size_t kinds;
     const accel_kind_info *const *kind = accel_kinds(&kinds);
     uint64_t hash = 0;
@@ -338,10 +352,21 @@ static void same_bits(void **state)
             hash = hash == 0 ? accel_photons_hash(&photons) : hash;
             assert_true(photons.count > 3000);
             assert_true(hash == accel_photons_hash(&photons));
+            accel_query query = {.user = NULL};
+            assert_true(accel_irradiance_paths(&photons, &run, (accel_receivers){discs, DISCS}, 1.5,
+                                               kind[i]->name, again, &query, &error));
+            if (i == 0 && threads == 1) {
+                memcpy(first, again, sizeof first);
+            }
+            assert_memory_equal(first, again, sizeof first);
             accel_photons_free(&photons);
         }
         accel_free(a);
     }
+    for (int i = 0; i < DISCS; i++) {
+        sum += first[i] > 0.0;
+    }
+    assert_true(sum >= DISCS / 4); /* those that face the light are lit */
     accel_unload_scene(&loaded);
 }
 
