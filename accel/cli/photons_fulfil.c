@@ -166,6 +166,22 @@ static int illuminate_all(session *s)
     return s->different ? ACCEL_EXIT_DIFFERENT : ACCEL_EXIT_FINE;
 }
 
+/* A CONFIG that is wrong is told before the first one's results: built over nothing. */
+static bool check_configs(const session *s)
+{
+    const accel_scene nothing = {NULL, 0};
+    for (size_t i = 0; i < s->request->configs.count; i++) {
+        accel *a;
+        accel_error error;
+        if (accel_build(&a, &nothing, s->request->configs.items[i], NULL, &error) != ACCEL_OK) {
+            accel_complain(s->command, "%s", error.text);
+            return false;
+        }
+        accel_free(a);
+    }
+    return true;
+}
+
 /* The file is opened before anything long is computed, and appears whole or not at all. */
 static int illuminate_into_file(session *s)
 {
@@ -204,7 +220,8 @@ int accel_photons_fulfil(const accel_command *command, accel_photon_request *r)
     r->run.user = &s.progress;
     const char *size = r->size == NULL ? "320x240" : r->size;
     int code = ACCEL_EXIT_BAD;
-    if (accel_camera_argument(command, size, r->camera, &s.loaded.scene, &s.camera)) {
+    if (check_configs(&s) &&
+        accel_camera_argument(command, size, r->camera, &s.loaded.scene, &s.camera)) {
         code = illuminate_into_file(&s);
     }
     accel_view_free(&s.view);

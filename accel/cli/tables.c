@@ -10,7 +10,6 @@
 #include "commands.h"
 #include "tables.h"
 
-#include <errno.h>
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
@@ -187,16 +186,8 @@ static int run_table3(const accel_command *command, const accel_table_request *r
     return worst;
 }
 
-static int run_tables(const accel_command *command, accel_table_request *r)
+static int run_tables(const accel_command *command, const accel_table_request *r)
 {
-    if (r->csv_name != NULL) {
-        r->csv = fopen(r->csv_name, "w");
-        if (r->csv == NULL) {
-            return accel_complain(command, "cannot write %s: %s", r->csv_name, strerror(errno));
-        }
-        fprintf(r->csv, "scene,config,seconds,quartile1,quartile3,build_seconds,paper_seconds,rays,"
-                        "hits,nodes_visited,tests,nodes,leaves,references,bytes,depth\n");
-    }
     int (*const tables[])(const accel_command *,
                           const accel_table_request *) = {run_table1, run_table2, run_table3};
     int worst = ACCEL_EXIT_FINE;
@@ -205,10 +196,29 @@ static int run_tables(const accel_command *command, accel_table_request *r)
             r->table == 0 || r->table == i + 1 ? tables[i](command, r) : ACCEL_EXIT_FINE;
         worst = code > worst ? code : worst;
     }
-    if (r->csv != NULL && fclose(r->csv) != 0) {
-        return accel_complain(command, "cannot write %s: %s", r->csv_name, strerror(errno));
-    }
     return worst;
+}
+
+/* The file of figures appears whole or not at all. */
+static int run_into_file(const accel_command *command, accel_table_request *r)
+{
+    if (r->csv_name == NULL) {
+        return run_tables(command, r);
+    }
+    accel_output output;
+    accel_error error;
+    if (!accel_output_open(&output, r->csv_name, &error)) {
+        return accel_complain(command, "%s", error.text);
+    }
+    r->csv = output.file;
+    fprintf(r->csv, "scene,config,seconds,quartile1,quartile3,build_seconds,paper_seconds,rays,"
+                    "hits,nodes_visited,tests,nodes,leaves,references,bytes,depth\n");
+    const int code = run_tables(command, r);
+    if (code == ACCEL_EXIT_BAD) {
+        accel_output_abandon(&output);
+        return code;
+    }
+    return accel_output_commit(&output, &error) ? code : accel_complain(command, "%s", error.text);
 }
 
 static bool read_flag(const accel_arguments *a, int flag, accel_table_request *r)
@@ -253,7 +263,7 @@ static int run(const accel_command *command, int argc, char **argv)
         }
     }
     r.quiet = arguments.quiet;
-    return run_tables(command, &r);
+    return run_into_file(command, &r);
 }
 
 const accel_command accel_command_tables = {

@@ -5,6 +5,7 @@
 #ifndef ACCEL_CLI_TABLES_H
 #define ACCEL_CLI_TABLES_H
 
+#include "output.h"
 #include "trials.h"
 
 #include <stdio.h>
