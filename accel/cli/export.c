@@ -3,12 +3,10 @@
  * accel export: a scene as a file for POV-Ray to include. See sdl.c for what is written.
  */
 #include "commands.h"
+#include "output.h"
 #include "sdl.h"
 #include "structure.h"
 
-#include <errno.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { FLAG_OUTPUT, FLAG_AS };
@@ -27,49 +25,22 @@ typedef struct job {
     accel_sdl_form form;
 } job;
 
-static bool write_file(const accel_command *command, const char *part, const accel_scene *scene,
-                       accel_sdl_form form)
-{
-    FILE *file = fopen(part, "w");
-    if (file == NULL) {
-        accel_complain(command, "cannot write %s: %s", part, strerror(errno));
-        return false;
-    }
-    const bool enough = accel_sdl_write(file, scene, form);
-    const bool failed = ferror(file) != 0;
-    const bool closed = fclose(file) == 0;
-    if (!enough) {
-        accel_complain(command, "out of memory; nothing was written");
-    } else if (failed || !closed) {
-        accel_complain(command, "cannot write %s: %s", part, strerror(errno));
-    }
-    return enough && !failed && closed;
-}
-
-/* The file appears under its name when it is complete, or not at all. */
-static int export_scene(const accel_command *command, const job *job, const accel_scene *scene)
+static int write_file(const accel_command *command, const job *job, const accel_scene *scene)
 {
     accel_error error;
+    accel_output output;
     if (!accel_sdl_fits(scene, job->form, &error)) {
         return accel_complain(command, "%s: %s; nothing was written", job->scene, error.text);
     }
-    const size_t length = strlen(job->output);
-    char *part = malloc(length + sizeof ".part");
-    if (part == NULL) {
+    if (!accel_output_open(&output, job->output, &error)) {
+        return accel_complain(command, "%s", error.text);
+    }
+    if (!accel_sdl_write(output.file, scene, job->form)) {
+        accel_output_abandon(&output);
         return accel_complain(command, "out of memory; nothing was written");
     }
-    memcpy(part, job->output, length);
-    memcpy(part + length, ".part", sizeof ".part");
-    int code = ACCEL_EXIT_FINE;
-    if (!write_file(command, part, scene, job->form)) {
-        code = ACCEL_EXIT_BAD;
-        remove(part);
-    } else if (rename(part, job->output) != 0) {
-        code = accel_complain(command, "cannot write %s: %s", job->output, strerror(errno));
-        remove(part);
-    }
-    free(part);
-    return code;
+    return accel_output_commit(&output, &error) ? ACCEL_EXIT_FINE
+                                                : accel_complain(command, "%s", error.text);
 }
 
 static int load_and_export(const accel_command *command, const job *job, bool quiet)
@@ -79,7 +50,7 @@ static int load_and_export(const accel_command *command, const job *job, bool qu
     if (!accel_open_scene(&loaded, job->scene, command, &progress)) {
         return ACCEL_EXIT_BAD;
     }
-    const int code = export_scene(command, job, &loaded.scene);
+    const int code = write_file(command, job, &loaded.scene);
     accel_unload_scene(&loaded);
     return code;
 }

@@ -1,0 +1,56 @@
+#!/bin/bash
+# SPDX-License-Identifier: Apache-2.0
+# accel export: both forms, number for number, and what cannot be written. That POV-Ray hits the
+# same triangles is tested by tests/povray/hits.sh.
+# shellcheck source=tests/cli/common.sh
+. "$(dirname "$0")/common.sh"
+
+# lines FILE PATTERN COUNT
+lines() {
+    [ "$(grep -cE "$2" "$1")" = "$3" ] || fail "$1 has $(grep -cE "$2" "$1") lines '$2', not $3"
+}
+
+holds() {
+    grep -qxF -e "$2" "$1" || fail "$1 does not hold the line '$2'"
+}
+
+# One triangle; 0.1 is not a float, and assimp reads floats.
+printf 'v 0.1 0 0\nv 1 0 0\nv 0 1e-30 -2\nf 1 2 3\n' >one.obj
+expect 0 export one.obj -o triangles.inc --as triangles
+[ ! -s out ] || fail "export prints something"
+lines triangles.inc '^// 1 triangles in 1 geometries' 1
+holds triangles.inc "Triangle(0,0,<0.10000000149011612,0,0>,<1,0,0>,<0,1.0000000031710769e-30,-2>)"
+expect 0 export one.obj -o mesh.inc
+lines mesh.inc '^// 1 triangles in 1 geometries' 1
+holds mesh.inc "<0.100000001,0,0>,"
+holds mesh.inc "<0,1e-30,-2>"
+holds mesh.inc "<0,1,2>"
+
+# The generators: all triangles, geometry by geometry, in order.
+expect 0 export teapots:quads=2 -o teapots.inc --as triangles
+awk -F '[(,]' '/^Triangle/ {
+        if ($2 != geometry) { if ($2 != geometry + 1) exit 1; geometry = $2; prim = 0 }
+        if ($3 != prim++) exit 1
+        total++
+    } END { exit geometry != 9 || total < 1000 }' geometry=0 teapots.inc ||
+    fail "the triangles of teapots are not in order"
+expect 0 export teapots:quads=2 -o teapots-mesh.inc --as mesh2
+lines teapots-mesh.inc '^#declare Geometry\[[0-9]\] = mesh2 \{$' 10
+lines teapots-mesh.inc '^normal_vectors' 10
+! grep -qiE 'nan|inf[^o]' teapots-mesh.inc || fail "the mesh has a coordinate that is no number"
+
+# Of equal places one normal: the four corners of a flat square look up.
+printf 'v 0 0 0\nv 1 0 0\nv 0 0 -1\nv 1 0 0\nv 1 0 -1\nv 0 0 -1\nf 1 2 3\nf 4 5 6\n' >square.obj
+expect 0 export square.obj -o square.inc
+lines square.inc '^<-?0.00000,1.00000,-?0.00000>,?$' 6
+
+complains "geometry 0 is not of triangles" export spheres:n=5 -o x.inc
+complains "unknown form 'mesh'" export one.obj -o x.inc --as mesh
+complains "SCENE and -o FILE.inc are needed" export one.obj
+complains "SCENE and -o FILE.inc are needed" export -o x.inc
+complains "none.obj" export none.obj -o x.inc
+complains "none/x.inc" export one.obj -o none/x.inc
+complains "has no triangles" export empty -o x.inc
+expect 2 export one.obj -o /dev/full
+[ "$(wc -l <err)" = 1 ] || fail "a full disk is not told in one line"
+finish
