@@ -335,7 +335,7 @@ static uint32_t partition(const struct range *r, const struct cut *cut)
 static double leaf_cost(const struct grower *g, uint32_t count)
 {
     const struct primitives *p = &g->build->a->prims;
-    return primitives_only_triangles(p) ? PAIR_COST * ((count + 1) / 2) : p->test_cost * count;
+    return p->only_triangles ? PAIR_COST * ((count + 1) / 2) : p->test_cost * count;
 }
 
 /* Is a range a leaf before any cut is tried? Where cost decides, a node alone may cost more. */

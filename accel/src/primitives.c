@@ -289,6 +289,14 @@ static uint32_t scene_size(const accel_scene *scene)
     return total;
 }
 
+static bool only_triangles(const struct primitives *p)
+{
+    for (uint32_t g = 0; g < p->geometry_count; g++)
+        if (p->geometry[g].type != ACCEL_TRIANGLES && p->geometry[g].count > 0)
+            return false;
+    return true;
+}
+
 bool primitives_copy(struct build *build, const accel_scene *scene)
 {
     struct primitives *p = &build->a->prims;
@@ -308,6 +316,7 @@ bool primitives_copy(struct build *build, const accel_scene *scene)
         first += p->geometry[g].count;
     }
     p->test_cost = mean_cost(p);
+    p->only_triangles = only_triangles(p);
     if (total == 0)
         return true;
     if (!array_reserve(&build->a->memory, &p->bounded, total))
@@ -317,14 +326,6 @@ bool primitives_copy(struct build *build, const accel_scene *scene)
             return false;
     build->a->info.unbounded = p->unbounded.count;
     array_trim(&build->a->memory, &p->bounded);
-    return true;
-}
-
-bool primitives_only_triangles(const struct primitives *p)
-{
-    for (uint32_t g = 0; g < p->geometry_count; g++)
-        if (p->geometry[g].type != ACCEL_TRIANGLES && p->geometry[g].count > 0)
-            return false;
     return true;
 }
 
@@ -339,7 +340,7 @@ bool primitives_move_triangles(struct build *build, const uint32_t *ids, size_t 
 {
     struct primitives *p = &build->a->prims;
     *out = NULL;
-    if (!primitives_only_triangles(p))
+    if (!p->only_triangles)
         return true;
     const size_t size = 9 * sizeof(double);
     double *moved = allocate(build, count, size);

@@ -40,14 +40,12 @@ struct primitives {
     uint32_t count;            /* ids */
     struct ids bounded;        /* what structures are built over, rising */
     struct ids unbounded;      /* objects with an infinite side, rising */
+    bool only_triangles;       /* no spheres, no objects */
     double test_cost;          /* mean cost of a test in units of visiting a node */
 };
 
 /* Copies and checks the scene, filling the counts in build->a->info. False: see build->error. */
 bool primitives_copy(struct build *build, const accel_scene *scene);
-
-/* Is there nothing but triangles? */
-bool primitives_only_triangles(const struct primitives *p);
 
 /* For a kind that refers to each primitive once: if there are only triangles, moves their vertices
  * into *out, a new array of 9 doubles for each of ids[0 .. count - 1] in that order, which the kind

@@ -137,15 +137,13 @@ void query_test_all(struct query *q, const uint32_t *ids, size_t count)
         test(q, ids[i], false);
 }
 
-void query_test_list(struct query *q, const uint32_t *ids, size_t count)
+/* Notes that a primitive is being tested. True if it was lately. */
+static bool tested_lately(struct query *q, uint32_t id)
 {
-    for (size_t i = 0; i < count && !query_done(q); i++) {
-        uint32_t *box = &q->mailbox[ids[i] % QUERY_MAILBOXES];
-        if (*box == ids[i])
-            continue;
-        *box = ids[i];
-        test(q, ids[i], true);
-    }
+    uint32_t *box = &q->mailbox[id % QUERY_MAILBOXES];
+    const bool known = *box == id;
+    *box = id;
+    return known;
 }
 
 /* One triangle that a test of two has not ruled out. */
@@ -156,16 +154,52 @@ static void test_survivor(struct query *q, uint32_t id, const double *vertices)
         offer(q, id, t, u, v);
 }
 
+static void test_two(struct query *q, const uint32_t id[2], const double *const vertices[2])
+{
+    const uint32_t may = triangle_pair_may_hit(q, vertices[0], vertices[1]);
+    for (int i = 0; i < 2; i++)
+        if (may >> i & 1)
+            test_survivor(q, id[i], vertices[i]);
+}
+
+/* A list of triangles, two at a time. */
+static void test_triangles(struct query *q, const uint32_t *ids, size_t count)
+{
+    uint32_t id[2];
+    const double *vertices[2];
+    int held = 0;
+    for (size_t i = 0; i < count && !query_done(q); i++) {
+        if (ids[i] == q->skip || tested_lately(q, ids[i]))
+            continue;
+        const struct geometry *g = primitives_geometry(q->prims, ids[i]);
+        id[held] = ids[i];
+        vertices[held++] = g->data + 9 * (size_t)(ids[i] - g->first);
+        q->tests++;
+        if (held == 2)
+            test_two(q, id, vertices);
+        held %= 2;
+    }
+    if (held == 1 && !query_done(q))
+        test_survivor(q, id[0], vertices[0]);
+}
+
+void query_test_list(struct query *q, const uint32_t *ids, size_t count)
+{
+    if (q->prims->only_triangles && !q->point) {
+        test_triangles(q, ids, count);
+        return;
+    }
+    for (size_t i = 0; i < count && !query_done(q); i++)
+        if (!tested_lately(q, ids[i]))
+            test(q, ids[i], true);
+}
+
 void query_test_triangles(struct query *q, const uint32_t *ids, const double *vertices,
                           size_t count)
 {
     q->tests += count;
-    for (size_t i = 0; i < count && !query_done(q); i += 2) {
-        const size_t next = i + 1 < count ? i + 1 : i;
-        const uint32_t may = triangle_pair_may_hit(q, vertices + 9 * i, vertices + 9 * next);
-        if (may & 1)
-            test_survivor(q, ids[i], vertices + 9 * i);
-        if (may & 2 && next > i)
-            test_survivor(q, ids[next], vertices + 9 * next);
-    }
+    for (size_t i = 0; i + 1 < count && !query_done(q); i += 2)
+        test_two(q, ids + i, (const double *[]){vertices + 9 * i, vertices + 9 * (i + 1)});
+    if (count % 2 == 1 && !query_done(q))
+        test_survivor(q, ids[count - 1], vertices + 9 * (count - 1));
 }
