@@ -214,7 +214,10 @@ watch_make() {
 
 compile() {
     local compiler=g++ files
-    if command -v ccache > /dev/null; then compiler="ccache g++"; fi
+    # a ccache that is there may still have no folder to write to
+    if ccache g++ -x c++ -c /dev/null -o "$work/nothing.o" 2> /dev/null; then
+        compiler="ccache g++"
+    fi
     # unix/ has two more files, but make -n would name them every time
     files=$( (make -n -C "$work/source/source" && make -n -C "$work/source/vfe") 2> /dev/null |
         grep -c ' -c -o ' || true)
@@ -243,7 +246,10 @@ if [ "${1-}" = --packages ]; then
     list_packages
     exit 0
 fi
-[ $# -le 1 ] || fail "usage: build.sh [BUILD_DIR] | --packages"
+if [ $# -gt 1 ] || [[ ${1-} == -* ]]; then
+    echo "usage: build.sh [BUILD_DIR] | --packages" >&2
+    exit 2
+fi
 build=$(cd "${1-$here/../build}" 2> /dev/null && pwd) || fail "no folder ${1-$here/../build}"
 [ -f "$build/libaccel.a" ] || fail "there is no $build/libaccel.a: build the library first (cmake)"
 work=$build/povray

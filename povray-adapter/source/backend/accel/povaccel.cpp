@@ -10,9 +10,8 @@
  * The answers are those of POV-Ray's linear search (-MB), bit for bit: the leaf
  * test of an object is POV-Ray's own and does not depend on the other objects,
  * the library offers each object whose box the ray meets, and orders what they
- * report by (depth, place in the scene). What this rests on: the box that
- * Padded_Box returns for an object holds all points where its leaf test may
- * report a hit.
+ * report by (depth, place in the scene). What this rests on: the boxes that
+ * povaccelbox.cpp finds hold all hits.
  *******************************************************************************/
 
 #include <cstdlib>
@@ -31,15 +30,12 @@
 #include "base/timer.h"
 
 #include "backend/accel/povaccel.h"
+#include "backend/accel/povaccelbox.h"
 #include "backend/control/messagefactory.h"
 #include "backend/control/renderbackend.h"
 #include "backend/render/trace.h"
 #include "backend/scene/objects.h"
 #include "backend/scene/scene.h"
-#include "backend/shape/csg.h"
-#include "backend/shape/planes.h"
-#include "backend/shape/poly.h"
-#include "backend/shape/sphsweep.h"
 #include "backend/support/task.h"
 
 // this must be the last file included
@@ -96,101 +92,6 @@ static POV_ULONG differenceCount = 0;
 static const POV_ULONG differencesPrinted = 10;
 
 
-
-/*****************************************************************************
- *
- * Boxes
- *
- *****************************************************************************/
-
-static bool Has_Inverted_Clip(const ObjectBase *object)
-{
-	for(vector<ObjectPtr>::const_iterator clip = object->Clip.begin(); clip != object->Clip.end(); clip++)
-	{
-		if(Test_Flag(*clip, INVERTED_FLAG))
-			return true;
-	}
-
-	return false;
-}
-
-/*
- * Is the BBox of an object known to hold all its hits? It is not
- * - with a bounded_by: the box may be that of the bounding object, which only
- *   has to be hit by the ray, while the surface may be anywhere along it;
- * - for a plane or poly whose clipping object is inverted: it takes the box of
- *   its first clipping object, inverted or not;
- * - for a sphere_sweep: the box is that of the modelling spheres, which a
- *   spline may leave;
- * - for an inverted CSG object: inverting turns its operation around, but
- *   leaves the box alone.
- */
-static bool Box_Holds_All_Hits(const ObjectBase *object)
-{
-	if(object->Bound.empty() == false)
-		return false;
-	if((dynamic_cast<const Plane *>(object) != NULL) || (dynamic_cast<const Poly *>(object) != NULL))
-		return (Has_Inverted_Clip(object) == false);
-	if(dynamic_cast<const SphereSweep *>(object) != NULL)
-		return false;
-
-	const CompoundObject *compound = dynamic_cast<const CompoundObject *>(object);
-
-	if(compound == NULL)
-		return true;
-	if(Test_Flag(object, INVERTED_FLAG))
-		return false;
-	for(vector<ObjectPtr>::const_iterator child = compound->children.begin(); child != compound->children.end(); child++)
-	{
-		if(Box_Holds_All_Hits(*child) == false)
-			return false;
-	}
-
-	return true;
-}
-
-/*
- * The box of an object for the library, with infinite sides if it is not known.
- *
- * The padding covers (a) the rounding of the box to float: at most 2^-24 of the
- * largest coordinate for the corner, and 2^-23 for the length, which may be
- * twice that coordinate; (b) the error of the solvers, for which 1e-4 of the
- * object's size is an allowance, not a bound: it is far more than any solver
- * was seen to need, and enlarges the area of a box by 0.04 % only. Hits before
- * their box are counted and reported.
- */
-static accel_box Padded_Box(const ObjectBase *object)
-{
-	const LightSource *light = dynamic_cast<const LightSource *>(object);
-	accel_box box;
-
-	// the hits of a light source are those of its looks_like object
-	if(light != NULL)
-		object = light->children[0];
-
-	bool known = !Test_Flag(object, INFINITE_FLAG) && Box_Holds_All_Hits(object);
-	DBL extent = 0.0;
-	DBL coordinate = 0.0;
-
-	for(int axis = X; axis <= Z; axis++)
-	{
-		box.lo[axis] = object->BBox.Lower_Left[axis];
-		box.hi[axis] = (DBL)object->BBox.Lower_Left[axis] + (DBL)object->BBox.Lengths[axis];
-		extent = max(extent, box.hi[axis] - box.lo[axis]);
-		coordinate = max(coordinate, max(fabs(box.lo[axis]), fabs(box.hi[axis])));
-		known = known && (box.lo[axis] <= box.hi[axis]);
-	}
-
-	const DBL padding = 1.0e-4 * extent + ldexp(coordinate, -22);
-
-	for(int axis = X; axis <= Z; axis++)
-	{
-		box.lo[axis] = known ? box.lo[axis] - padding : -HUGE_VAL;
-		box.hi[axis] = known ? box.hi[axis] + padding : HUGE_VAL;
-	}
-
-	return box;
-}
 
 static bool Never_Hit(const ObjectBase *object)
 {
@@ -331,18 +232,15 @@ static void Test_Object(accel_probe *probe)
 
 void Accelerator::Build(const SceneData& scene, Task& task)
 {
-	vector<accel_box> boxes;
-
 	for(vector<ObjectPtr>::const_iterator i = scene.objects.begin(); i != scene.objects.end(); i++)
 	{
 		if(Never_Hit(*i) == false)
-		{
 			objects.push_back(*i);
-			boxes.push_back(Padded_Box(*i));
-		}
 	}
 	lightsLeftOut = scene.objects.size() - objects.size();
 	sceneData = &scene;
+
+	const vector<accel_box> boxes = Find_Boxes(scene, objects);
 
 	accel_geometry geometry;
 	geometry.type = ACCEL_OBJECTS;
