@@ -20,9 +20,8 @@
 
 #include <string.h>
 
-/* Cost of visiting a node, in the units of primitives.test_cost: a step down is cheaper than an
- * octree's, which is 1. */
-#define NODE_COST 0.6
+/* Cost of visiting a node; the cost of a test is primitives.test_cost of them. */
+#define NODE_COST 1.0
 
 /* A split that cuts off empty space is preferred by this share of its cost. */
 #define EMPTY_BONUS 0.2

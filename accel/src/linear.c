@@ -35,7 +35,7 @@ static void release(accel *a)
 
 const struct accel_kind linear_kind = {
     .info = {.name = "linear", .summary = "no structure: tests every primitive; judges the others"},
-    .cost = {.build = 0, .ray = 30, .node = 0, .test = 10, .growth = GROWS_LIKE_N},
+    .cost = {.build = 0, .ray = 30, .node = 0, .test = 36, .growth = GROWS_LIKE_N},
     .size = sizeof(accel),
     .build = build,
     .walk = walk,

@@ -12,7 +12,7 @@
 
 /* Mean cost of one test in units of a node's visit: measured for triangles and spheres; a host's
  * object runs through at least a callback. */
-#define TRIANGLE_COST 1.5
+#define TRIANGLE_COST 0.4
 #define SPHERE_COST   1.5
 #define OBJECT_COST   6.0
 

@@ -130,14 +130,14 @@ static inline bool query_meets(const struct query *q, struct interval s)
 }
 
 /* Walks may test against a little more than S where that is cheaper; what is met in vain costs only
- * time. For common rays, which are parallel to no axis, start at tmin >= 0 and round to nearest, let
- * begin be the greatest of tmin and the raw near crossings, and end the least raw far crossing,
+ * time. For common rays, which are parallel to no axis, start at tmin >= 0 and round to nearest,
+ * let begin be the greatest of tmin and the raw near crossings, and end the least raw far crossing,
  * scaled up by 1 + QUERY_SLACK. Where S = [a, z] meets the query and may hold a hit, begin <= end
  * and begin <= query_cap.
- * Proof: z > tmin >= 0, as the ray's interval is open, so no far crossing is negative, and the slack
- * takes each up by at least QUERY_SLACK - 4u relatively, u = 2^-53, whether it is multiplied to t
- * or to 1 / dir: more than QUERY_GROWTH and what growth was rounded by; hence end >= z. If begin is
- * tmin or not positive, begin <= a. Otherwise begin exceeds a by less than half the slack,
+ * Proof: z > tmin >= 0, as the ray's interval is open, so no far crossing is negative, and the
+ * slack takes each up by at least QUERY_SLACK - 4u relatively, u = 2^-53, whether it is multiplied
+ * to t or to 1 / dir: more than QUERY_GROWTH and what growth was rounded by; hence end >= z. If
+ * begin is tmin or not positive, begin <= a. Otherwise begin exceeds a by less than half the slack,
  * relatively, which the slack makes up for in end and in the cap. Where a product is subnormal,
  * rounding to nearest undoes the growth, and is monotone; a directed rounding would make the growth
  * a whole step, hence S itself there. */
