@@ -155,7 +155,7 @@ const struct accel_kind bsp_kind = {
              .summary = "kd-tree by the surface-area heuristic",
              .options = options,
              .option_count = sizeof options / sizeof *options},
-    .cost = {.build = 60, .ray = 60, .node = 14, .test = 18, .growth = GROWS_LIKE_LOG},
+    .cost = {.build = 60, .ray = 60, .node = 16, .test = 16, .growth = GROWS_LIKE_LOG},
     .size = sizeof(struct bsp),
     .build = build,
     .walk = walk,

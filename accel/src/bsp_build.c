@@ -28,7 +28,7 @@
 
 /* References that a tree may have, in multiples of its primitives; splits in a row that may fail to
  * lower the cost; the largest cell whose boxes are sorted; planes tried per axis in larger ones. */
-enum { BUDGET = 8, LOOKAHEAD = 3, SWEEP = 48, BINS = 64 };
+enum { BUDGET = 8, LOOKAHEAD = 3, SWEEP = 24, BINS = 64 };
 
 /* What is the same for all cells. */
 struct grower {
@@ -78,8 +78,8 @@ static const accel_box *box_of(const struct grower *g, const struct task *t, uin
 
 /* What the cost of a plane across one axis needs of the cell. */
 struct slices {
-    double lo, hi;          /* the cell on this axis */
-    double base, per, area; /* half the surface of a slice: base + per * length; of the cell */
+    double lo, hi;    /* the cell on this axis */
+    double base, per; /* chance of a slice: base + per * length */
     int axis;
 };
 
@@ -89,19 +89,16 @@ static struct slices slices_of(const struct grower *g, const accel_box *cell, in
     for (int k = 0; k < 3; k++)
         side[k] = g->scale * (cell->hi[k] - cell->lo[k]);
     const double a = side[(axis + 1) % 3], b = side[(axis + 2) % 3];
-    return (struct slices){cell->lo[axis],
-                           cell->hi[axis],
-                           a * b,
-                           g->scale * (a + b),
-                           a * b + (a + b) * side[axis],
-                           axis};
+    const double inverse = 1.0 / (a * b + (a + b) * side[axis]);
+    return (struct slices){cell->lo[axis], cell->hi[axis], a * b * inverse,
+                           g->scale * (a + b) * inverse, axis};
 }
 
 /* The chance that a ray through the cell meets the slice of this length. 1 where surfaces do not
  * tell. */
 static double chance(const struct slices *s, double length)
 {
-    const double ratio = (s->base + s->per * length) / s->area;
+    const double ratio = s->base + s->per * length;
     return ratio >= 0.0 && ratio <= 1.0 ? ratio : 1.0;
 }
 

@@ -67,7 +67,7 @@ const struct accel_kind bvh_kind = {
              .summary = "binary hierarchy of boxes by the surface-area heuristic",
              .options = options,
              .option_count = sizeof options / sizeof *options},
-    .cost = {.build = 30, .ray = 45, .node = 14, .test = 12, .growth = GROWS_LIKE_LOG},
+    .cost = {.build = 30, .ray = 45, .node = 17, .test = 12, .growth = GROWS_LIKE_LOG},
     .size = sizeof(struct bvh),
     .build = build,
     .walk = walk,

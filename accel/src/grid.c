@@ -98,7 +98,7 @@ const struct accel_kind grid_kind = {
              .summary = "one uniform grid over the scene",
              .options = options,
              .option_count = sizeof options / sizeof *options},
-    .cost = {.build = 15, .ray = 120, .node = 16, .test = 14, .growth = GROWS_LIKE_CUBE_ROOT},
+    .cost = {.build = 15, .ray = 120, .node = 45, .test = 16, .growth = GROWS_LIKE_CUBE_ROOT},
     .size = sizeof(struct grid_kind),
     .build = build,
     .walk = walk,

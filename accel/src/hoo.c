@@ -230,6 +230,7 @@ const struct accel_kind hoo_kind = {
              .summary = "hierarchy of octrees: clusters, an octree for each, a binary tree on top",
              .options = options,
              .option_count = sizeof options / sizeof *options},
+    .cost = {.build = 60, .ray = 70, .node = 75, .test = 16, .growth = GROWS_LIKE_LOG},
     .size = sizeof(struct hoo_kind),
     .build = build,
     .walk = walk,

@@ -91,7 +91,7 @@ const struct accel_kind octree_kind = {
              .summary = "one octree over the scene",
              .options = options,
              .option_count = sizeof options / sizeof *options},
-    .cost = {.build = 40, .ray = 60, .node = 30, .test = 16, .growth = GROWS_LIKE_LOG},
+    .cost = {.build = 40, .ray = 60, .node = 75, .test = 16, .growth = GROWS_LIKE_LOG},
     .size = sizeof(struct octree_kind),
     .build = build,
     .walk = walk,
