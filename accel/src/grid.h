@@ -32,6 +32,7 @@ struct grid {
     uint32_t bricks[3]; /* along each axis: the cells in fours, rounded up */
     size_t plane[3];    /* each axis' first plane in the pool; 4 * bricks + 1 of them */
     size_t brick;       /* the first brick in the pool; x runs fastest */
+    uint32_t depth;     /* grids around this one */
     bool cell;          /* stands for one cell of another grid, and is all that the cell lists */
 };
 
@@ -52,12 +53,17 @@ struct grid_items {
     size_t count;       /* of them */
 };
 
+/* Predicted cost of beginning the walk of a grid, in visits of a node. Measured. */
+#define GRID_BEGIN_COST 25.0
+
 /* How fine a grid is to be. */
 struct grid_plan {
     uint32_t cells[3]; /* along each axis */
     double density;    /* cells per item that were asked for */
     double cost;       /* predicted, of a line that meets the grid's box, in visits of a node */
-    bool coarser;      /* than the density says, to keep memory in proportion */
+    double tests;      /* of that, for testing items */
+    double room;       /* factor on the bounds that keep memory in proportion to the items */
+    bool coarser;      /* than was asked for, to keep within the bounds */
 };
 
 /* Chooses the cells of a grid over the items, not empty: `density` cells per item, as cubic as
@@ -65,11 +71,17 @@ struct grid_plan {
 struct grid_plan grid_plan(const struct primitives *p, const struct grid_pool *pool,
                            const accel_box *box, struct grid_items items, double density);
 
-/* Are the bricks of a plan in proportion to its items? */
+/* A plan of so many cells along each axis, but for one axis without extent. */
+struct grid_plan grid_plan_given(const accel_box *box, uint32_t cells);
+
+/* Are the bricks of a plan for a grid over `count` items within bounds? */
 bool grid_plan_fits(const struct grid_plan *plan, size_t count);
 
 /* References that a grid over `count` items may have. */
-double grid_reference_budget(size_t count);
+double grid_plan_references(const struct grid_plan *plan, size_t count);
+
+/* Predicted cost of testing all items one by one, in visits of a node. */
+double grid_list_cost(const struct primitives *p, struct grid_items items);
 
 /* Halves the number of cells. */
 void grid_coarsen(struct grid_plan *plan);
@@ -93,6 +105,15 @@ static inline const accel_box *grid_item_box(const struct primitives *p,
                                              const struct grid_pool *pool, uint32_t ref)
 {
     return ref < p->count ? &p->box[ref] : &pool->grids.at[ref - p->count].box;
+}
+
+/* The cells of a grid that hold something: those from *first on in starts. Returns their number. */
+static inline size_t grid_slots(const struct grid_pool *pool, const struct grid *g, size_t *first)
+{
+    const size_t bricks = (size_t)g->bricks[0] * g->bricks[1] * g->bricks[2];
+    const size_t last = g->brick + bricks - 1;
+    *first = pool->firsts.at[g->brick];
+    return pool->firsts.at[last] + (size_t)__builtin_popcountll(pool->masks.at[last]) - *first;
 }
 
 /* The place in starts of the cell of a brick's bit, which is set. */

@@ -214,7 +214,7 @@ static bool mark_until(struct maker *m, double budget)
 /* Frames the grid and marks its cells, coarser until the references are within bounds. */
 static bool mark_cells(struct maker *m, struct grid *g, struct grid_plan *plan)
 {
-    const double budget = grid_reference_budget(m->items.count);
+    const double budget = grid_plan_references(plan, m->items.count);
     const size_t planes = m->pool->planes.count, bricks = m->pool->masks.count;
     for (;;) {
         while (!grid_plan_fits(plan, m->items.count))

@@ -6,18 +6,17 @@
  * planes of an axis in proportion to the area of the box's face, and tests an item if it meets the
  * block of cells that list it, in proportion to the block's surface; that an item is met in
  * several cells costs a look in the mailbox. Large sets are judged by a sample. Cost: a few
- * operations per item of the sample and density tried, of which there are log2(128 n).
+ * operations per item of the sample and density tried, of which there are log8(256 n) + 5.
  */
 #include "grid.h"
 
-/* In visits of a node: beginning a walk, a step from cell to cell, a reference found in the
- * mailbox, an item that is a grid. Measured against the octree's walk. */
-#define BEGIN_COST   3.0
+/* In visits of a node: a step from cell to cell, a reference found in the mailbox, an item that is
+ * a grid. Measured against the octree's walk. */
 #define STEP_COST    0.4
 #define MAILBOX_COST 0.1
-#define GRID_COST    6.0
+#define GRID_COST    30.0
 
-/* Densities that are tried: from one cell in all to this many cells per item, by factors of 2. */
+/* Densities that are tried: from about one cell in all to this many cells per item. */
 #define MAX_DENSITY 128.0
 
 /* Items that are looked at for each density tried. */
@@ -26,16 +25,21 @@ enum { SAMPLE = 8192 };
 /* Cells along an axis, so that stepping through empty ones stays cheap beside any test. */
 enum { MAX_CELLS = 8192 };
 
-/* Bricks that a grid over `count` items may have, at 12 bytes each. The constants here and below
- * let a few large items have some cells. */
-static double brick_budget(size_t count)
+/* Factor on the bounds below for what the user asks for by number. */
+#define GIVEN_ROOM 16.0
+
+/* Bricks take 12 bytes, references 4. The constants let a few large items have some cells. */
+double grid_plan_references(const struct grid_plan *plan, size_t count)
 {
-    return 2.0 * (double)count + 64.0;
+    return plan->room * (10.0 * (double)count + 256.0);
 }
 
-double grid_reference_budget(size_t count)
+bool grid_plan_fits(const struct grid_plan *plan, size_t count)
 {
-    return 10.0 * (double)count + 256.0;
+    double bricks = 1.0;
+    for (int k = 0; k < 3; k++)
+        bricks *= (plan->cells[k] + GRID_BRICK - 1) / GRID_BRICK;
+    return bricks <= plan->room * (2.0 * (double)count + 64.0);
 }
 
 /* What is the same for all densities tried. */
@@ -101,15 +105,13 @@ static void divide(const double side[3], double cells, uint32_t out[3])
     }
 }
 
-/* The cells of axis k from the one that holds lo to the one that holds hi, both inclusive. */
-static double span(const struct planner *s, int k, double scale, uint32_t cells, double lo,
-                   double hi)
+/* The cells of an axis from the one that holds lo to the one that holds hi, both inclusive. */
+static double span(double origin, double scale, uint32_t cells, double lo, double hi)
 {
-    const double last = cells - 1;
-    double first = floor((lo - s->box->lo[k]) * scale), end = floor((hi - s->box->lo[k]) * scale);
-    first = !(first > 0.0) ? 0.0 : first < last ? first : last;
-    end = !(end < last) ? last : end > 0.0 ? end : 0.0;
-    return end - first + 1.0;
+    const double last = cells - 1, low = (lo - origin) * scale, high = (hi - origin) * scale;
+    const uint32_t first = !(low > 0.0) ? 0 : low < last ? (uint32_t)low : cells - 1;
+    const uint32_t end = !(high < last) ? cells - 1 : high > 0.0 ? (uint32_t)high : 0;
+    return end - first + 1;
 }
 
 static double surface(const double side[3])
@@ -131,7 +133,7 @@ static struct outcome look(const struct planner *s, const uint32_t cells[3], siz
         double block = 1.0;
         for (int k = 0; k < 3; k++) {
             const double cut =
-                cells[k] > 1 ? span(s, k, scale[k], cells[k], b->lo[k], b->hi[k]) : 1;
+                cells[k] > 1 ? span(s->box->lo[k], scale[k], cells[k], b->lo[k], b->hi[k]) : 1.0;
             side[k] = s->side[k] * cut / cells[k];
             block *= cut;
         }
@@ -150,42 +152,63 @@ static double predicted_cost(const struct planner *s, const uint32_t cells[3], s
         steps += (cells[k] - 1) * s->side[(k + 1) % 3] * s->side[(k + 2) % 3] / whole;
         cell[k] = s->side[k] / cells[k];
     }
-    return BEGIN_COST + STEP_COST * steps + o.tests +
+    return GRID_BEGIN_COST + STEP_COST * steps + o.tests +
            MAILBOX_COST * o.references * surface(cell) / whole;
 }
 
-bool grid_plan_fits(const struct grid_plan *plan, size_t count)
-{
-    double bricks = 1.0;
-    for (int k = 0; k < 3; k++)
-        bricks *= (plan->cells[k] + GRID_BRICK - 1) / GRID_BRICK;
-    return bricks <= brick_budget(count);
-}
-
-/* The plan for one density. Its cost is infinite if it is over a budget. */
-static struct grid_plan plan_density(const struct planner *s, double density, size_t stride)
+/* The plan for one density. Its cost is infinite if it is out of bounds. */
+static struct grid_plan plan_density(const struct planner *s, double density, double room,
+                                     size_t stride)
 {
     const size_t count = s->items.count;
-    struct grid_plan plan = {.density = density, .cost = (double)INFINITY};
+    struct grid_plan plan = {.density = density, .cost = (double)INFINITY, .room = room};
     divide(s->side, fmax(1.0, density * (double)count), plan.cells);
     if (!grid_plan_fits(&plan, count))
         return plan;
     const struct outcome o = look(s, plan.cells, stride);
-    if (o.references <= grid_reference_budget(count))
+    if (o.references <= grid_plan_references(&plan, count))
         plan.cost = predicted_cost(s, plan.cells, o);
+    plan.tests = o.tests;
     return plan;
 }
 
-static struct grid_plan cheapest(const struct planner *s, size_t stride)
+/* Tries densities from `from` on, by factors of `step`, while there would be more than one cell. */
+static struct grid_plan try_densities(const struct planner *s, double from, double to, double step,
+                                      struct grid_plan best, size_t stride)
 {
-    const double count = (double)s->items.count;
-    struct grid_plan best = {.density = 0.0, .cost = (double)INFINITY};
-    for (double density = MAX_DENSITY; density * count > 0.5; density *= 0.5) {
-        const struct grid_plan plan = plan_density(s, density, stride);
+    for (double density = from; density >= to; density /= step) {
+        const struct grid_plan plan = plan_density(s, density, 1.0, stride);
         if (!(plan.cost > best.cost))
             best = plan;
     }
     return best;
+}
+
+/* In two rounds: by large factors, then between the neighbours of the best. */
+static struct grid_plan cheapest(const struct planner *s, size_t stride)
+{
+    const double one = 0.5 / (double)s->items.count;
+    const struct grid_plan none = {.cost = (double)INFINITY};
+    const struct grid_plan best = try_densities(s, MAX_DENSITY, one / 8.0, 8.0, none, stride);
+    return try_densities(s, best.density * 4.0, best.density / 4.0, 2.0, best, stride);
+}
+
+double grid_list_cost(const struct primitives *p, struct grid_items items)
+{
+    double sum = 0.0;
+    for (size_t i = 0; i < items.count; i++)
+        sum += items.at[i] < p->count ? p->test_cost : GRID_COST;
+    return sum;
+}
+
+struct grid_plan grid_plan_given(const accel_box *box, uint32_t cells)
+{
+    struct planner s = {.box = box};
+    struct grid_plan plan = {.room = GIVEN_ROOM};
+    measure_box(&s);
+    for (int k = 0; k < 3; k++)
+        plan.cells[k] = s.side[k] > FLAT ? cells : 1;
+    return plan;
 }
 
 void grid_coarsen(struct grid_plan *plan)
@@ -206,5 +229,5 @@ struct grid_plan grid_plan(const struct primitives *p, const struct grid_pool *p
     const size_t stride = items.count / SAMPLE + 1;
     if (isnan(density))
         return cheapest(&s, stride);
-    return plan_density(&s, density, stride);
+    return plan_density(&s, density, GIVEN_ROOM, stride);
 }

@@ -1,0 +1,375 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * Building the kind hug: clusters, their nesting, a grid for each, and, in the form `density`,
+ * grids for crowded cells.
+ *
+ * A crowded cell is decided upon while its grid's references are the last of the pool, so taking
+ * its list out moves only what is behind it. Time is linear in the references. References in all
+ * are bounded by BUDGET, each grid's by grid_plan_references.
+ */
+#include "hug.h"
+
+#include <string.h>
+
+/* A cell of no more items stays a list (Havran's limit for recursive grids). */
+enum { CROWDED = 8 };
+
+/* References in all, in multiples of the primitives, up to which cells become grids. */
+enum { BUDGET = 16 };
+
+/* A cell that becomes a grid. */
+struct job {
+    struct grid_plan plan;
+    size_t number;       /* of the grid */
+    size_t begin, count; /* its items in builder.stack */
+};
+
+struct builder {
+    struct build *build;
+    struct hug *h;
+    struct clustering clustering;
+    struct hug_nesting nesting;
+    struct ids items;          /* of all clusters' grids, grid after grid, each run rising */
+    ARRAY_OF(size_t) begin;    /* by cluster's grid: its run in items; one more at the end */
+    struct ids stack;          /* items of the cells that become grids, on the way down */
+    ARRAY_OF(struct job) jobs; /* on the way down */
+    double from, to;           /* progress of the grid under way */
+    bool coarser;              /* some grid is coarser than was asked for */
+    bool full;                 /* the budget was met */
+};
+
+/* ------------------------------------------------------------ what a grid is made of ---- */
+
+static bool count_items(struct builder *b)
+{
+    const struct clustering *c = &b->clustering;
+    const struct ids *home = &b->nesting.home;
+    const size_t grids = b->h->pool.grids.count;
+    if (!array_extend(&b->build->a->memory, &b->begin, grids + 1))
+        return build_no_memory(b->build);
+    memset(b->begin.at, 0, b->begin.count * sizeof *b->begin.at);
+    for (size_t i = 0; i < c->clusters.count; i++)
+        b->begin.at[home->at[i] + 1] += c->clusters.at[i].count;
+    for (size_t i = 1; i < grids; i++)
+        b->begin.at[b->nesting.parent.at[i] + 1]++;
+    for (size_t i = 0; i < grids; i++)
+        b->begin.at[i + 1] += b->begin.at[i];
+    return true;
+}
+
+/* Enters ids in rising order, then grids; leaves begin[i] at the end of run i. */
+static bool enter_items(struct builder *b, const uint32_t *home_of)
+{
+    const struct primitives *p = &b->build->a->prims;
+    for (size_t i = 0; i < p->bounded.count; i++) {
+        const uint32_t id = p->bounded.at[i];
+        b->items.at[b->begin.at[home_of[id]]++] = id;
+        if (i % 4096 == 0 && !build_tick(b->build, (double)i / (double)p->bounded.count))
+            return false;
+    }
+    for (size_t i = 1; i < b->h->pool.grids.count; i++)
+        b->items.at[b->begin.at[b->nesting.parent.at[i]]++] = p->count + (uint32_t)i;
+    return true;
+}
+
+/* Which grid each primitive is an item of. */
+static void find_homes(const struct builder *b, uint32_t *home_of)
+{
+    const struct clustering *c = &b->clustering;
+    for (size_t i = 0; i < c->clusters.count; i++) {
+        const struct cluster *cluster = &c->clusters.at[i];
+        for (uint32_t j = cluster->first; j < cluster->first + cluster->count; j++)
+            home_of[c->order.at[j]] = b->nesting.home.at[i];
+    }
+}
+
+static bool gather_items(struct builder *b)
+{
+    struct memory *m = &b->build->a->memory;
+    struct ids home_of = {NULL, 0, 0};
+    bool fine = count_items(b);
+    if (!fine)
+        return false;
+    const size_t total = b->begin.at[b->begin.count - 1];
+    fine = (array_extend(m, &home_of, b->build->a->prims.count) &&
+            array_extend(m, &b->items, total)) ||
+           build_no_memory(b->build);
+    if (fine) {
+        find_homes(b, home_of.at);
+        fine = enter_items(b, home_of.at);
+        memmove(b->begin.at + 1, b->begin.at, (b->begin.count - 1) * sizeof *b->begin.at);
+        b->begin.at[0] = 0;
+    }
+    array_free(m, &home_of);
+    return fine;
+}
+
+/* ------------------------------------------------------------------- crowded cells ---- */
+
+/* The closed range of the cell of a brick's bit. */
+static accel_box cell_box(const struct grid_pool *pool, const struct grid *g, size_t brick,
+                          uint32_t bit)
+{
+    const size_t local = brick - g->brick, row = local / g->bricks[0];
+    const size_t at[3] = {local % g->bricks[0], row % g->bricks[1], row / g->bricks[1]};
+    accel_box box;
+    for (int k = 0; k < 3; k++) {
+        const size_t i = GRID_BRICK * at[k] + (bit >> 2 * k) % GRID_BRICK;
+        box.lo[k] = pool->planes.at[g->plane[k] + i];
+        box.hi[k] = pool->planes.at[g->plane[k] + i + 1];
+    }
+    return box;
+}
+
+/* The part of a cell that its items fill. */
+static accel_box filled_part(const struct builder *b, const accel_box *cell,
+                             struct grid_items items)
+{
+    accel_box box = box_empty();
+    for (size_t i = 0; i < items.count; i++)
+        box_add(&box, grid_item_box(&b->build->a->prims, &b->h->pool, items.at[i]));
+    for (int k = 0; k < 3; k++) {
+        box.lo[k] = box.lo[k] > cell->lo[k] ? box.lo[k] : cell->lo[k];
+        box.hi[k] = box.hi[k] < cell->hi[k] ? box.hi[k] : cell->hi[k];
+    }
+    return box;
+}
+
+/* The share of an item's tests that a cell is to blame for. A line tests an item in the first of
+ * the cells that it meets; of a block of cells it meets as many times more cells than blocks as the
+ * sum of the cells' surfaces is larger than the block's. */
+static double blame(const accel_box *item, const accel_box *cell)
+{
+    double side[3], span[3];
+    for (int k = 0; k < 3; k++) {
+        side[k] = cell->hi[k] - cell->lo[k];
+        span[k] = side[k] > 0.0 ? (item->hi[k] - item->lo[k]) / side[k] + 1.0 : 1.0;
+        span[k] = item->lo[k] < cell->lo[k] || item->hi[k] > cell->hi[k] ? span[k] : 1.0;
+    }
+    const double one = side[0] * side[1] + side[1] * side[2] + side[2] * side[0];
+    const double block =
+        side[0] * side[1] / span[2] + side[1] * side[2] / span[0] + side[2] * side[0] / span[1];
+    return one > 0.0 && block < one ? block / one : 1.0;
+}
+
+static double mean_blame(const struct builder *b, const accel_box *cell, struct grid_items items)
+{
+    double sum = 0.0;
+    for (size_t i = 0; i < items.count; i++)
+        sum += blame(grid_item_box(&b->build->a->prims, &b->h->pool, items.at[i]), cell);
+    return sum / (double)items.count;
+}
+
+/* Would a cell be cheaper as a grid, and which? */
+static bool worth_a_grid(const struct builder *b, const accel_box *cell, const accel_box *box,
+                         struct grid_items items, struct grid_plan *plan)
+{
+    const struct primitives *p = &b->build->a->prims;
+    const double share = mean_blame(b, cell, items), chance = box_chance(box, cell);
+    const double list = share * grid_list_cost(p, items);
+    if (list <= chance * GRID_BEGIN_COST)
+        return false;
+    *plan = grid_plan(p, &b->h->pool, box, items, b->build->a->option[HUG_DENSITY]);
+    if (plan->cells[0] == 1 && plan->cells[1] == 1 && plan->cells[2] == 1)
+        return false;
+    return chance * (plan->cost - (1.0 - share) * plan->tests) < list;
+}
+
+static bool may_refine(struct builder *b, size_t count)
+{
+    const struct primitives *p = &b->build->a->prims;
+    if (count <= CROWDED)
+        return false;
+    const size_t used = b->h->pool.refs.count + b->stack.count;
+    if (used < BUDGET * (p->bounded.count + 256) && p->count + b->h->pool.grids.count < ACCEL_NONE)
+        return true;
+    b->full = true;
+    return false;
+}
+
+/* Notes that the grids among the items lie in one of depth `depth`. */
+static void deepen(struct builder *b, struct grid_items items, uint32_t depth)
+{
+    const uint32_t ids = b->build->a->prims.count;
+    for (size_t i = items.count; i > 0 && items.at[i - 1] >= ids; i--) {
+        struct grid *inner = &b->h->pool.grids.at[items.at[i - 1] - ids];
+        inner->depth = inner->depth > depth ? inner->depth : depth + 1;
+    }
+}
+
+/* Makes a grid of a cell's list, of depth `depth`, to be built later. */
+static bool add_job(struct builder *b, const accel_box *box, uint32_t depth,
+                    struct grid_items items, const struct grid_plan *plan)
+{
+    struct memory *m = &b->build->a->memory;
+    struct grid_pool *pool = &b->h->pool;
+    const struct job job = {*plan, pool->grids.count, b->stack.count, items.count};
+    if (!array_extend(m, &b->jobs, 1) || !array_extend(m, &b->stack, items.count) ||
+        !array_extend(m, &pool->grids, 1))
+        return build_no_memory(b->build);
+    memcpy(b->stack.at + job.begin, items.at, items.count * sizeof *items.at);
+    b->jobs.at[b->jobs.count - 1] = job;
+    pool->grids.at[job.number] = (struct grid){.box = *box, .depth = depth, .cell = true};
+    deepen(b, items, depth);
+    return true;
+}
+
+/* The list of one cell, whose box is `cell`: makes it a job if that pays. False: no memory. */
+static bool consider(struct builder *b, const struct grid *g, const accel_box *cell,
+                     struct grid_items items, bool *taken)
+{
+    struct grid_plan plan;
+    *taken = false;
+    if (!may_refine(b, items.count))
+        return true;
+    const accel_box box = filled_part(b, cell, items);
+    if (!worth_a_grid(b, cell, &box, items, &plan))
+        return true;
+    *taken = true;
+    return add_job(b, &box, g->depth + 1, items, &plan);
+}
+
+/* Takes the lists out of those cells of the grid just built that are better grids. */
+static bool take_crowded(struct builder *b, size_t number)
+{
+    struct grid_pool *pool = &b->h->pool;
+    const struct grid g = pool->grids.at[number];
+    size_t slot, left = grid_slots(pool, &g, &slot), begin = pool->starts.at[slot], to = begin;
+    for (size_t brick = g.brick; left > 0; brick++) {
+        for (uint64_t mask = pool->masks.at[brick]; mask; mask &= mask - 1, slot++, left--) {
+            const uint32_t bit = (uint32_t)__builtin_ctzll(mask);
+            const accel_box cell = cell_box(pool, &g, brick, bit);
+            const struct grid_items items = {pool->refs.at + begin,
+                                             pool->starts.at[slot + 1] - begin};
+            bool taken;
+            if (!consider(b, &g, &cell, items, &taken))
+                return false;
+            pool->starts.at[slot] = (uint32_t)to;
+            if (taken)
+                pool->refs.at[to++] =
+                    b->build->a->prims.count + (uint32_t)b->jobs.at[b->jobs.count - 1].number;
+            else
+                memmove(pool->refs.at + to, items.at, items.count * sizeof *items.at);
+            to += taken ? 0 : items.count;
+            begin += items.count;
+        }
+        if (!build_tick(b->build, b->to))
+            return false;
+    }
+    pool->starts.at[slot] = (uint32_t)to;
+    pool->refs.count = to;
+    return true;
+}
+
+/* Builds the grids that stand for cells of the grid just built, and those inside them. */
+static bool refine(struct builder *b, size_t number, uint32_t nesting)
+{
+    const size_t first = b->jobs.count, stacked = b->stack.count;
+    if (nesting == HUG_MAX_CELL_NESTING)
+        return true;
+    if (!take_crowded(b, number))
+        return false;
+    const size_t last = b->jobs.count;
+    for (size_t i = first; i < last; i++) {
+        struct job job = b->jobs.at[i];
+        const struct grid_items items = {b->stack.at + job.begin, job.count};
+        if (!grid_build(b->build, &b->h->pool, job.number, items, &job.plan, b->to, b->to) ||
+            !refine(b, job.number, nesting + 1))
+            return false;
+    }
+    b->jobs.count = first;
+    b->stack.count = stacked;
+    return true;
+}
+
+/* ---------------------------------------------------------------------- the whole ---- */
+
+static bool build_grid(struct builder *b, size_t number)
+{
+    const accel *a = b->build->a;
+    struct grid_pool *pool = &b->h->pool;
+    const accel_box *box = &pool->grids.at[number].box;
+    const size_t begin = b->begin.at[number];
+    const struct grid_items items = {b->items.at + begin, b->begin.at[number + 1] - begin};
+    const bool paper = a->option[HUG_FORM] == HUG_FORM_PAPER;
+    struct grid_plan plan = paper ? grid_plan_given(box, (uint32_t)a->option[HUG_CELLS])
+                                  : grid_plan(&a->prims, pool, box, items, a->option[HUG_DENSITY]);
+    b->from = (double)begin / (double)b->items.count;
+    b->to = (double)(begin + items.count) / (double)b->items.count;
+    deepen(b, items, pool->grids.at[number].depth);
+    if (!grid_build(b->build, pool, number, items, &plan, b->from, b->to))
+        return false;
+    b->coarser |= plan.coarser;
+    return paper || refine(b, number, 0);
+}
+
+static void describe(const struct builder *b)
+{
+    accel_info *info = &b->build->a->info;
+    const struct grid_pool *pool = &b->h->pool;
+    info->size_classes = b->clustering.size_classes;
+    info->clusters = (uint32_t)b->clustering.clusters.count;
+    info->nodes = pool->grids.count;
+    info->leaves = pool->starts.count - 1;
+    info->references = pool->refs.count;
+    for (size_t i = 0; i < pool->grids.count; i++)
+        info->depth =
+            pool->grids.at[i].depth + 1 > info->depth ? pool->grids.at[i].depth + 1 : info->depth;
+}
+
+static void note(const struct builder *b)
+{
+    const struct grid_pool *pool = &b->h->pool;
+    const double bricks = (double)pool->masks.count;
+    const size_t own = b->nesting.parent.count, clusters = b->clustering.clusters.count;
+    if (clusters == 1)
+        build_note(b->build, "one cluster: no grid above it");
+    else if (own < clusters)
+        build_note(b->build, "%zu of %zu clusters are too small or alone for a grid of their own",
+                   clusters - own, clusters);
+    build_note(b->build, "%.1f %% of the cells are empty and not stored",
+               100.0 * (1.0 - (double)(pool->starts.count - 1) / (GRID_BRICK_CELLS * bricks)));
+    if (b->build->a->option[HUG_FORM] == HUG_FORM_PAPER && !isnan(b->build->a->option[HUG_DENSITY]))
+        build_note(b->build, "density is not used: it is for form=density");
+    if (b->coarser)
+        build_note(b->build, "some grids are coarser than asked for: the memory would not be in "
+                             "proportion");
+    if (b->full)
+        build_note(b->build, "crowded cells stayed lists: %d references per primitive were met",
+                   BUDGET);
+}
+
+static bool run(struct builder *b)
+{
+    struct build *build = b->build;
+    const double *option = build->a->option;
+    const struct cluster_rule rule = {option[HUG_CONNECTIVITY], option[HUG_OCTAVES]};
+    build_phase(build, "clusters");
+    if (!cluster_scene(build, &b->clustering, rule, 0.0, 1.0))
+        return false;
+    build_phase(build, "nesting");
+    if (!hug_nest(build, &b->h->pool, &b->clustering, &b->nesting) || !gather_items(b))
+        return false;
+    build_phase(build, "grids");
+    for (size_t i = 0; i + 1 < b->begin.count; i++)
+        if (!build_grid(b, i))
+            return false;
+    grid_pool_trim(&build->a->memory, &b->h->pool);
+    describe(b);
+    note(b);
+    return true;
+}
+
+bool hug_build(struct build *build)
+{
+    struct builder b = {.build = build, .h = (struct hug *)build->a};
+    struct memory *m = &build->a->memory;
+    const bool fine = run(&b);
+    cluster_free(m, &b.clustering);
+    hug_nesting_free(m, &b.nesting);
+    array_free(m, &b.items);
+    array_free(m, &b.begin);
+    array_free(m, &b.stack);
+    array_free(m, &b.jobs);
+    return fine;
+}

@@ -1,0 +1,120 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * Checks a hierarchy of grids against its definition: finds out what each cluster's grid lists, in
+ * its cells and in the grids that stand for them; checks that every bounded primitive and every
+ * cluster's grid but the first has one home; then that each grid lists its items where they belong.
+ */
+#include "hug.h"
+
+#include <stdlib.h>
+
+struct checker {
+    const accel *a;
+    const struct grid_pool *pool;
+    accel_error *error;
+    uint32_t *home;  /* by reference: the cluster's grid that lists it, or ACCEL_NONE */
+    size_t *begin;   /* by grid: its run in items; two more at the end */
+    uint32_t *items; /* grid after grid, each run rising */
+};
+
+static bool broken(const struct checker *c, const char *what, size_t number)
+{
+    error_set(c->error, ACCEL_BROKEN, "%s: %s %zu", c->a->kind->info.name, what, number);
+    return false;
+}
+
+static size_t references(const struct checker *c)
+{
+    return c->a->prims.count + c->pool->grids.count;
+}
+
+/* Notes what a grid lists as at home in `home`, going into the grids that stand for its cells. */
+static bool find_homes(const struct checker *c, size_t number, uint32_t home)
+{
+    const struct grid *g = &c->pool->grids.at[number];
+    const uint32_t ids = c->a->prims.count;
+    size_t slot;
+    const size_t count = grid_slots(c->pool, g, &slot);
+    if (slot + count >= c->pool->starts.count)
+        return broken(c, "the cells end behind the pool, grid", number);
+    if (g->depth >= HUG_MAX_DEPTH || g->depth >= c->a->info.depth)
+        return broken(c, "a grid lies too deep, number", number);
+    for (size_t i = c->pool->starts.at[slot]; i < c->pool->starts.at[slot + count]; i++) {
+        const uint32_t ref = c->pool->refs.at[i];
+        if (ref >= references(c))
+            return broken(c, "a cell names a grid that does not exist,", ref - ids);
+        const struct grid *inner = ref < ids ? NULL : &c->pool->grids.at[ref - ids];
+        if (inner && inner->depth <= g->depth)
+            return broken(c, "a grid is not deeper than the one around it, number", ref - ids);
+        if (inner && inner->cell) {
+            if (!find_homes(c, ref - ids, home))
+                return false;
+        } else if (c->home[ref] != ACCEL_NONE && c->home[ref] != home) {
+            return broken(c, "two grids list item", ref);
+        } else {
+            c->home[ref] = home;
+        }
+    }
+    return true;
+}
+
+/* Has everything a home that should have one? Counts the items by home. */
+static bool count_items(const struct checker *c)
+{
+    const struct primitives *p = &c->a->prims;
+    for (size_t i = 0; i < p->bounded.count; i++)
+        if (c->home[p->bounded.at[i]] == ACCEL_NONE)
+            return broken(c, "no grid lists primitive", p->bounded.at[i]);
+    for (uint32_t ref = 0; ref < references(c); ref++) {
+        const struct grid *g = ref < p->count ? NULL : &c->pool->grids.at[ref - p->count];
+        if (g && !g->cell && (c->home[ref] == ACCEL_NONE) != (ref == p->count))
+            return broken(c, "a cluster's grid has no home, or the first has one, number",
+                          ref - p->count);
+        if (c->home[ref] != ACCEL_NONE)
+            c->begin[c->home[ref] + 1]++;
+    }
+    for (size_t i = 0; i < c->pool->grids.count; i++)
+        c->begin[i + 1] += c->begin[i];
+    return true;
+}
+
+/* Checks every cluster's grid over its items. */
+static bool check_grids(const struct checker *c)
+{
+    for (uint32_t ref = 0; ref < references(c); ref++)
+        if (c->home[ref] != ACCEL_NONE)
+            c->items[c->begin[c->home[ref]]++] = ref;
+    for (size_t i = 0, begin = 0; i < c->pool->grids.count; begin = c->begin[i++])
+        if (!c->pool->grids.at[i].cell &&
+            !grid_validate(c->a, c->pool, i,
+                           (struct grid_items){c->items + begin, c->begin[i] - begin}, c->error))
+            return false;
+    return true;
+}
+
+static bool check(const struct checker *c)
+{
+    for (uint32_t ref = 0; ref < references(c); ref++)
+        c->home[ref] = ACCEL_NONE;
+    for (size_t i = 0; i < c->pool->grids.count; i++)
+        if (!c->pool->grids.at[i].cell && !find_homes(c, i, (uint32_t)i))
+            return false;
+    return count_items(c) && check_grids(c);
+}
+
+bool hug_validate(const accel *a, accel_error *error)
+{
+    struct checker c = {.a = a, .pool = &((const struct hug *)a)->pool, .error = error};
+    c.home = malloc(references(&c) * sizeof *c.home);
+    c.items = malloc(references(&c) * sizeof *c.items);
+    c.begin = calloc(c.pool->grids.count + 2, sizeof *c.begin);
+    bool fine = false;
+    if (c.home && c.items && c.begin)
+        fine = check(&c);
+    else
+        error_set(error, ACCEL_NO_MEMORY, "validate: no memory for %zu items", references(&c));
+    free(c.home);
+    free(c.items);
+    free(c.begin);
+    return fine;
+}
