@@ -50,7 +50,7 @@ static void over_field(struct dice *d, const struct test_scene *s, const double 
                        double org[3])
 {
     (void)s;
-    const double height = dice_power(d, -2, 5) * (dice_chance(d, 0.5) ? 1 : -1);
+    const double side = dice_chance(d, 0.5) ? 1 : -1, height = side * dice_power(d, -2, 5);
     for (int k = 0; k < 3; k++)
         org[k] = at[k] + (k == 2 ? 10 * height : height * dice_range(d, -1, 1));
 }

@@ -91,7 +91,8 @@ static void bad_triangle(struct part *p, struct dice *d)
     double x[9];
     for (int k = 0; k < 9; k++)
         x[k] = dice_unit(d);
-    x[dice_below(d, 9)] = bad_number(d);
+    const uint32_t at = dice_below(d, 9);
+    x[at] = bad_number(d);
     part_triangle(p, x, x + 3, x + 6);
 }
 

@@ -174,7 +174,7 @@ void make_mixed(struct test_scene *s, struct dice *d, double count)
         struct part *p = scene_part(s, ACCEL_OBJECTS);
         p->order = order == 0 || count < 0 ? ACCEL_ORDER_KEY : ACCEL_ORDER_RAW;
         for (uint32_t i = 0; i < n / 4; i++)
-            random_ball(p, d, dice_power(d, -10, -2), dice_chance(d, 0.5) ? BALL : FILTER);
+            random_ball(p, d, dice_power(d, -10, -2), i % 2 ? BALL : FILTER);
         for (uint32_t i = 0; i < n / 4; i++)
             random_crate(p, d, dice_power(d, -10, -1));
         random_plane(p, d);
