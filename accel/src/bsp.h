@@ -45,7 +45,7 @@ struct bsp {
 /* When a cell is split. */
 struct bsp_rule {
     double leaf;  /* cells of no more primitives are not; NAN: where the predicted cost is lower */
-    double depth; /* cells this deep are not; NAN: by the number of primitives */
+    double depth; /* cells this deep are not; NAN: BSP_MAX_DEPTH */
 };
 
 /* Builds the tree over all bounded primitives. */

@@ -10,10 +10,11 @@
  * it would list that box in both halves. Boxes are not clipped to triangles: the invariant wants
  * every cell that P' meets.
  *
- * End of growth, after Havran: a depth that grows with log n, and a number of splits in a row that
- * may fail to lower the cost. A budget of references, which a cell hands down in proportion, bounds
- * the whole tree. Where the leaf size is left to the builder, every subtree that a leaf would beat
- * by predicted cost is then collapsed, bottom-up.
+ * End of growth: after Havran, a number of splits in a row that may fail to lower the cost; and a
+ * budget of references, which a cell hands down in proportion, so that it bounds the whole tree. A
+ * depth that grows with log n, as Havran has it, saved no time beside these and cut off small
+ * things in large scenes; only the walk's stack bounds it. Where the leaf size is left to the
+ * builder, every subtree that a leaf would beat by predicted cost is then collapsed, bottom-up.
  */
 #include "bsp.h"
 #include "cells.h"
@@ -376,13 +377,6 @@ static bool grow(struct grower *g, struct task *t, struct subtree *out)
     return make_leaf(g, t, (uint32_t)node, out);
 }
 
-/* Levels that a tree over n primitives is given. A balanced tree has log2 n; a third more, and a
- * few, leave room for cutting off what is empty. */
-static double levels_for(double n)
-{
-    return fmin(BSP_MAX_DEPTH, ceil(8.0 + 1.3 * log2(n)));
-}
-
 static bool prepare(struct grower *g, struct task *root)
 {
     const struct primitives *p = &g->build->a->prims;
@@ -393,7 +387,7 @@ static bool prepare(struct grower *g, struct task *root)
     g->scale = frame_of(&all).scale;
     g->bsp->box = all;
     if (isnan(g->rule.depth))
-        g->rule.depth = levels_for((double)p->bounded.count);
+        g->rule.depth = BSP_MAX_DEPTH;
     *root = (struct task){.box = all,
                           .count = (uint32_t)p->bounded.count,
                           .budget = BUDGET * (double)p->bounded.count};
