@@ -1,0 +1,18 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * In place of bench_embree.c where Embree is not installed.
+ */
+#include "bench.h"
+
+size_t accel_bench_peers(accel_contender *peers, const accel_scene *scene, double length)
+{
+    (void)peers;
+    (void)scene;
+    (void)length;
+    return 0;
+}
+
+const char *accel_bench_no_peers(void)
+{
+    return "this build has no peers: libembree-dev was not there when it was configured";
+}
