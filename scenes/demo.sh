@@ -180,7 +180,7 @@ trace_hits() {
         "$build/accel" trace "$scene" -o "$demo/$file" -a "$config" --quiet --size "${width}x$height"
         written+=("build/demo/$file")
     done
-    hits=$("$root/tests/povray/hits.sh" "$name" 64x36 "$config" | tee "$demo/$name.hits.log" |
+    hits=$("$root/tests/povray/hits.sh" "$name" 48x27 "$config" | tee "$demo/$name.hits.log" |
         tail -n 1) || failed=1
     [ ! -t 1 ] || say
     rows+=("$(awk -v scene="$name" -v kind="$config" '{
