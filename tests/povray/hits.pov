@@ -4,7 +4,8 @@
 // Every triangle becomes a smooth_triangle with one and the same normal at its three corners:
 // POV-Ray intersects it as a plain triangle, in double, and the normal that trace() returns names
 // the triangle. The normal is 1 along the axis that the triangle faces most and NUMBER / (4 Total)
-// along the next one: POV-Ray drops a smooth_triangle whose normals stand across it.
+// along the next one: POV-Ray drops a smooth_triangle whose normals stand across it. Triangles
+// without area, which POV-Ray refuses and no ray hits, are left out.
 // One union holds them all; POV-Ray tests each of its parts for every ray.
 //
 // Declare=Total=N   triangles in the scene
@@ -25,7 +26,7 @@ global_settings { assumed_gamma 1 }
     #local Code = <1, Part, 0>;
     #if (abs(Facing.y) > max(abs(Facing.x), abs(Facing.z))) #local Code = <0, 1, Part>; #end
     #if (abs(Facing.z) > max(abs(Facing.x), abs(Facing.y))) #local Code = <Part, 0, 1>; #end
-    smooth_triangle { A, Code, B, Code, C, Code }
+    #if (vlength(Facing) > 0) smooth_triangle { A, Code, B, Code, C, Code } #end
     #declare Number = Number + 1;
 #end
 
