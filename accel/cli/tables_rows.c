@@ -23,7 +23,7 @@ static bool has_kind(const char *config)
 
 /* The values that are tried for '?'. */
 static const double values[] = {1, 2, 4, 8, 16, 32, 64};
-static const double densities[] = {0.25, 0.5, 1, 2, 4, 8, 16};
+static const double densities[] = {0.0625, 0.125, 0.25, 0.5, 1, 2, 4};
 
 enum { VALUES = sizeof values / sizeof values[0], MOST_TUNED = 5, CONFIG_LENGTH = 80 };
 
