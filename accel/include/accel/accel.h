@@ -26,7 +26,8 @@
  *
  * The library never prints, exits or aborts, and has no global state. The floating-point
  * environment is the caller's: under another rounding mode or flush-to-zero the answers may differ
- * between modes, but every kind still equals "linear" in that mode.
+ * between modes, but every kind still equals "linear" in that mode. Its exceptions must not trap:
+ * infinities and NaN are used as values.
  */
 #ifndef ACCEL_H
 #define ACCEL_H
