@@ -126,9 +126,10 @@ bool accel_irradiance_nearest(const accel_photons *photons, const accel_photon_r
  * What counts as crossing: the path meets the plane from the front, 0 < t < length + radius, at a
  * distance < radius from the receiver. The extension by one radius is what the paper leaves open. A
  * path that ends on the disc's own surface must not stop short of the plane by rounding, or where
- * the surface bends up from it; and in a corner the paths that the wall stops would have crossed
- * the part of the disc behind the wall. The price: light leaks through what is nearer to the disc
- * than one radius.
+ * the surface bends up from it; and in a corner some of the paths that the wall stops cross the
+ * part of the disc behind the wall: in even light an edge between floor and wall gets 5/8 of what
+ * it should, without the extension 1/2. The price: through a surface h < radius above the disc 1 -
+ * (h / radius)^2 of even light leaks.
  *
  * The paths are sent through a structure of the library over the discs, which `config` names:
  * accel_all visits every disc that a path crosses once. Powers are counted for each light, so the
