@@ -37,8 +37,8 @@ struct grid_axis {
 
 /* A level: the bricks of a grid, or the cells of a brick. */
 struct grid_level {
-    struct grid_axis axis[3];
-    ptrdiff_t index; /* of place 0, 0, 0 */
+    struct grid_axis axis[3]; /* the major axis first */
+    ptrdiff_t index;          /* of place 0, 0, 0 */
 };
 
 /* What is the same for all places of one walk. */
@@ -47,8 +47,7 @@ struct grid_walk {
     struct query *q;
     const struct grid_pool *pool;
     grid_visit *visit;
-    int axis[3];          /* the major axis, and the two others */
-    ptrdiff_t step[3];    /* from a cell's near plane to its far one, as the ray goes */
+    int axis[3];          /* x, y and z, the major axis first; all places are in that order */
     uint32_t flip;        /* a cell's bit, of that of its place in the brick */
     const uint64_t *mask; /* of the brick being walked */
 };
@@ -133,11 +132,8 @@ typedef bool grid_holds(const struct grid_walk *w, ptrdiff_t index);
 static inline bool grid_slab(struct grid_walk *w, const struct grid_level *l, uint32_t at,
                              struct interval s, grid_holds *holds, grid_place *visit)
 {
-    const struct grid_axis *m = &l->axis[w->axis[0]];
-    const struct grid_axis *u = &l->axis[w->axis[1]], *v = &l->axis[w->axis[2]];
+    const struct grid_axis *m = &l->axis[0], *u = &l->axis[1], *v = &l->axis[2];
     const bool single = u->lo == u->hi && v->lo == v->hi;
-    uint32_t place[3];
-    place[w->axis[0]] = at;
     for (uint32_t i = u->lo; i <= u->hi; i++) {
         const ptrdiff_t row = l->index + at * m->stride + i * u->stride;
         for (uint32_t j = v->lo; j <= v->hi; j++) {
@@ -148,9 +144,7 @@ static inline bool grid_slab(struct grid_walk *w, const struct grid_level *l, ui
             const struct interval cut = single ? s : grid_cut(grid_cut(s, u, i), v, j);
             if (!query_meets(w->q, cut))
                 continue;
-            place[w->axis[1]] = i;
-            place[w->axis[2]] = j;
-            if (!visit(w, l, index, place, cut))
+            if (!visit(w, l, index, (const uint32_t[]){at, i, j}, cut))
                 return false;
         }
     }
@@ -161,8 +155,7 @@ static inline bool grid_slab(struct grid_walk *w, const struct grid_level *l, ui
 static inline bool grid_slabs(struct grid_walk *w, struct grid_level *l, struct interval s,
                               grid_holds *holds, grid_place *visit)
 {
-    struct grid_axis *m = &l->axis[w->axis[0]];
-    struct grid_axis *u = &l->axis[w->axis[1]], *v = &l->axis[w->axis[2]];
+    struct grid_axis *m = &l->axis[0], *u = &l->axis[1], *v = &l->axis[2];
     double near = m->parallel ? s.a : grid_near(m, m->lo);
     for (uint32_t at = m->lo; at < m->end; at++) {
         const double end = w->q->limit < s.z ? w->q->limit : s.z;
@@ -214,11 +207,13 @@ static inline bool grid_visit_brick(struct grid_walk *w, const struct grid_level
     for (int k = 0; k < 3; k++) {
         const struct grid_axis *brick = &bricks->axis[k];
         struct grid_axis *x = &cells.axis[k];
-        *x = *brick;
-        x->plane += (ptrdiff_t)place[k] * brick->step;
-        x->step = w->step[k];
-        x->stride = 1 << 2 * k;
-        x->end = GRID_BRICK;
+        *x = (struct grid_axis){.plane = brick->plane + (ptrdiff_t)place[k] * brick->step,
+                                .step = brick->step / GRID_BRICK,
+                                .stride = 1 << 2 * w->axis[k],
+                                .org = brick->org,
+                                .inv = brick->inv,
+                                .parallel = brick->parallel,
+                                .end = GRID_BRICK};
         if (!grid_begin(x, 0, s.a))
             return true;
     }
@@ -236,35 +231,30 @@ static inline uint32_t grid_guess(const struct query *q, const struct grid *g, i
     return !(place > 0.0) ? 0 : place < last ? (uint32_t)place : g->bricks[k] - 1;
 }
 
-/* One axis of the bricks of a grid. */
-static inline struct grid_axis grid_bricks_axis(const struct grid_walk *w, const struct grid *g,
-                                                int k, ptrdiff_t stride)
+/* Axis k of the bricks of a grid. */
+static inline struct grid_axis grid_bricks_axis(const struct grid_pool *pool, const struct grid *g,
+                                                const struct query *q, int k)
 {
-    const struct query *q = w->q;
     const bool parallel = q->parallel >> k & 1, negative = q->sign >> k & 1;
-    const double *planes = w->pool->planes.at + g->plane[k];
+    const ptrdiff_t strides[3] = {1, g->bricks[0], (ptrdiff_t)g->bricks[0] * g->bricks[1]};
+    const double *planes = pool->planes.at + g->plane[k];
     return (struct grid_axis){.plane = negative ? planes + GRID_BRICK * g->bricks[k] : planes,
-                              .step = GRID_BRICK * w->step[k],
-                              .stride = negative ? -stride : stride,
+                              .step = negative ? -GRID_BRICK : GRID_BRICK,
+                              .stride = negative ? -strides[k] : strides[k],
                               .org = q->org[k],
                               .inv = parallel ? 1.0 : q->inv[k],
                               .parallel = parallel,
                               .end = g->bricks[k]};
 }
 
-/* The axis on which the ray crosses most cells, first. */
-static inline void grid_choose_axes(struct grid_walk *w, const struct grid *g)
+/* The axis on which the ray crosses most cells. */
+static inline int grid_major_axis(const struct query *q, const struct grid *g)
 {
-    double most = -1.0;
-    for (int k = 0; k < 3; k++) {
-        const double crossed = fabs(w->q->dir[k]) * g->scale[k];
-        if (crossed > most) {
-            most = crossed;
-            w->axis[0] = k;
-        }
-    }
-    w->axis[1] = (w->axis[0] + 1) % 3;
-    w->axis[2] = (w->axis[0] + 2) % 3;
+    int major = 0;
+    for (int k = 1; k < 3; k++)
+        if (fabs(q->dir[k]) * g->scale[k] > fabs(q->dir[major]) * g->scale[major])
+            major = k;
+    return major;
 }
 
 /* Visits every cell whose S is not empty and does not begin after q->limit. Inlined with `visit`
@@ -275,19 +265,23 @@ static inline bool grid_walk(const accel *a, const struct grid_pool *pool, const
     const struct interval s = query_box(q, &g->box);
     if (!query_meets(q, s))
         return true;
-    struct grid_walk w = {.a = a, .q = q, .pool = pool, .visit = visit};
+    const int major = grid_major_axis(q, g);
+    struct grid_walk w = {.a = a,
+                          .q = q,
+                          .pool = pool,
+                          .visit = visit,
+                          .axis = {major, (major + 1) % 3, (major + 2) % 3}};
     struct grid_level bricks = {.index = (ptrdiff_t)g->brick};
-    ptrdiff_t stride = 1;
-    grid_choose_axes(&w, g);
-    for (int k = 0; k < 3; k++) {
-        const bool negative = q->sign >> k & 1;
-        w.step[k] = negative ? -1 : 1;
-        w.flip |= (negative ? 3u : 0u) << 2 * k;
-        bricks.index += negative ? (ptrdiff_t)(g->bricks[k] - 1) * stride : 0;
-        bricks.axis[k] = grid_bricks_axis(&w, g, k, stride);
-        if (!grid_begin(&bricks.axis[k], grid_guess(q, g, k, s.a), s.a))
+    for (int i = 0; i < 3; i++) {
+        const int k = w.axis[i];
+        struct grid_axis *x = &bricks.axis[i];
+        *x = grid_bricks_axis(pool, g, q, k);
+        if (q->sign >> k & 1) {
+            w.flip |= 3u << 2 * k;
+            bricks.index -= (ptrdiff_t)(g->bricks[k] - 1) * x->stride;
+        }
+        if (!grid_begin(x, grid_guess(q, g, k, s.a), s.a))
             return true;
-        stride *= g->bricks[k];
     }
     return grid_slabs(&w, &bricks, s, grid_brick_holds, grid_visit_brick);
 }

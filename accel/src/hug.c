@@ -76,7 +76,7 @@ const struct accel_kind hug_kind = {
              .summary = "clusters, a uniform grid each, nested",
              .options = options,
              .option_count = sizeof options / sizeof *options},
-    .cost = {.build = 60, .ray = 120, .node = 16, .test = 14, .growth = GROWS_LIKE_CUBE_ROOT},
+    .cost = {.build = 60, .ray = 120, .node = 45, .test = 16, .growth = GROWS_LIKE_CUBE_ROOT},
     .size = sizeof(struct hug),
     .build = hug_build,
     .walk = walk,
