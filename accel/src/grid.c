@@ -9,7 +9,7 @@
 #include "grid_walk.h"
 
 struct grid_kind {
-    accel base;
+    accel base;            /* what every kind has */
     struct grid_pool pool; /* of one grid */
 };
 

@@ -13,14 +13,14 @@ enum { TICK = 1 << 14 };
 
 /* One grid being built. */
 struct maker {
-    struct build *build;
-    struct grid_pool *pool;
-    const struct grid *grid;
-    struct grid_items items;
-    double from, to; /* progress of the whole */
-    double done;     /* of the passes, in 0..3 */
-    uint64_t total;  /* references */
-    size_t untimed;  /* references since the last look at the clock */
+    struct build *build;     /* the build under way */
+    struct grid_pool *pool;  /* that the grid's parts go into */
+    const struct grid *grid; /* the grid */
+    struct grid_items items; /* what it is made of */
+    double from, to;         /* progress of the whole */
+    double done;             /* of the passes, in 0..3 */
+    uint64_t total;          /* references */
+    size_t untimed;          /* references since the last look at the clock */
 };
 
 /* Does something for one cell that an item meets. */

@@ -44,11 +44,11 @@ bool grid_plan_fits(const struct grid_plan *plan, size_t count)
 
 /* What is the same for all densities tried. */
 struct planner {
-    const struct primitives *p;
-    const struct grid_pool *pool;
-    const accel_box *box;
-    struct grid_items items;
-    double side[3]; /* the box's extents, the longest being 1 */
+    const struct primitives *p;   /* the scene's */
+    const struct grid_pool *pool; /* of the grids among the items */
+    const accel_box *box;         /* of the grid */
+    struct grid_items items;      /* what it is to be made of */
+    double side[3];               /* the box's extents, the longest being 1 */
 };
 
 /* What a resolution makes of the items. */

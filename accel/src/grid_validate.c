@@ -11,14 +11,14 @@
 
 /* One grid being checked. */
 struct checker {
-    const accel *a;
-    const struct grid_pool *pool;
-    const struct grid *grid;
-    struct grid_items items;
-    accel_error *error;
-    size_t first, cells; /* its cells in starts */
-    size_t *start;       /* by cell: its run in list; one more at the end */
-    uint32_t *list;      /* what should be listed, cell after cell */
+    const accel *a;               /* the structure */
+    const struct grid_pool *pool; /* of its grids */
+    const struct grid *grid;      /* the one */
+    struct grid_items items;      /* what it should be made of */
+    accel_error *error;           /* the first violation */
+    size_t first, cells;          /* its cells in starts */
+    size_t *start;                /* by cell: its run in list; one more at the end */
+    uint32_t *list;               /* what should be listed, cell after cell */
 };
 
 static bool broken(const struct checker *c, const char *what, size_t number)

@@ -43,10 +43,10 @@ struct grid_level {
 
 /* What is the same for all places of one walk. */
 struct grid_walk {
-    const accel *a;
-    struct query *q;
-    const struct grid_pool *pool;
-    grid_visit *visit;
+    const accel *a;               /* handed to visit */
+    struct query *q;              /* the query */
+    const struct grid_pool *pool; /* of the grid */
+    grid_visit *visit;            /* what is done with a cell */
     int axis[3];          /* x, y and z, the major axis first; all places are in that order */
     uint32_t flip;        /* a cell's bit, of that of its place in the brick */
     const uint64_t *mask; /* of the brick being walked */

@@ -34,8 +34,8 @@ enum {
 };
 
 struct hug {
-    accel base;
-    struct grid_pool pool;
+    accel base;            /* what every kind has */
+    struct grid_pool pool; /* the grids */
 };
 
 enum hug_option { HUG_FORM, HUG_CELLS, HUG_DENSITY, HUG_CONNECTIVITY, HUG_OCTAVES };

@@ -19,23 +19,23 @@ enum { BUDGET = 16 };
 
 /* A cell that becomes a grid. */
 struct job {
-    struct grid_plan plan;
-    size_t number;       /* of the grid */
-    size_t begin, count; /* its items in builder.stack */
+    struct grid_plan plan; /* of the grid */
+    size_t number;         /* of the grid */
+    size_t begin, count;   /* its items in builder.stack */
 };
 
 struct builder {
-    struct build *build;
-    struct hug *h;
-    struct clustering clustering;
-    struct hug_nesting nesting;
-    struct ids items;          /* of all clusters' grids, grid after grid, each run rising */
-    ARRAY_OF(size_t) begin;    /* by cluster's grid: its run in items; one more at the end */
-    struct ids stack;          /* items of the cells that become grids, on the way down */
-    ARRAY_OF(struct job) jobs; /* on the way down */
-    double from, to;           /* progress of the grid under way */
-    bool coarser;              /* some grid is coarser than was asked for */
-    bool full;                 /* the budget was met */
+    struct build *build;          /* the build under way */
+    struct hug *h;                /* what is built */
+    struct clustering clustering; /* of the scene */
+    struct hug_nesting nesting;   /* of the clusters' grids */
+    struct ids items;             /* of all clusters' grids, grid after grid, each run rising */
+    ARRAY_OF(size_t) begin;       /* by cluster's grid: its run in items; one more at the end */
+    struct ids stack;             /* items of the cells that become grids, on the way down */
+    ARRAY_OF(struct job) jobs;    /* on the way down */
+    double from, to;              /* progress of the grid under way */
+    bool coarser;                 /* some grid is coarser than was asked for */
+    bool full;                    /* the budget was met */
 };
 
 /* ------------------------------------------------------------ what a grid is made of ---- */

@@ -18,8 +18,8 @@ enum { FEW = 8 };
 enum { LOOKS = 64 };
 
 struct nester {
-    struct build *build;
-    const struct clustering *c;
+    struct build *build;          /* the build under way */
+    const struct clustering *c;   /* what is nested */
     struct grid_pool *pool;       /* of the kind */
     struct hug_nesting *n;        /* what is made */
     struct grid_pool search;      /* grid i + 1 has the box of cluster i; grid 0 is over them */

@@ -9,9 +9,9 @@
 #include <stdlib.h>
 
 struct checker {
-    const accel *a;
-    const struct grid_pool *pool;
-    accel_error *error;
+    const accel *a;               /* the structure */
+    const struct grid_pool *pool; /* of its grids */
+    accel_error *error;           /* the first violation */
     uint32_t *home;  /* by reference: the cluster's grid that lists it, or ACCEL_NONE */
     size_t *begin;   /* by grid: its run in items; two more at the end */
     uint32_t *items; /* grid after grid, each run rising */
