@@ -1,60 +1,52 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Walking an octree front to back.
+ * The walk of an octree, front to back: the top-down parametric one of Revelles, Urena and Lastra,
+ * "An Efficient Parametric Algorithm for Octree Traversal", WSCG 2000, made exact: instead of
+ * choosing one next child it visits every child whose grown interval is met, in the order that the
+ * ray's signs give; planes are computed from coordinates, never by halving t.
  *
- * The walk is the top-down parametric one of Revelles, Urena and Lastra, "An Efficient Parametric
- * Algorithm for Octree Traversal", WSCG 2000, made exact: instead of choosing one next child it
- * visits every child whose grown interval is met, in the order that the ray's signs give; planes
- * are computed from coordinates, never by halving t.
+ * A cell's part of the ray begins at the greatest near crossing of its sides and ends at the least
+ * far one. A child has those of its parent and, of the three planes between children, those it
+ * touches: so a level needs two numbers for each child, made for all eight at once.
+ *
+ * For common rays (query.h) far crossings and the cap carry slack, all children are tested at once,
+ * and nothing is grown: the proof there holds for any set of near and far planes, so for cells too.
+ * Other rays are tested by S itself.
  */
 #include "octree.h"
+#include "pair.h"
 
-/* One level of the walk. Raw values of t, near and far as the ray goes. A half of an axis that the
- * ray is parallel to and outside of has near = inf, far = -inf. */
+/* One level of the walk. Children in the order of the ray: place i is child i ^ sign. Near and far
+ * are raw values of t; far ones with slack for common rays. */
 struct level {
-    double near[3], far[3];         /* where the ray enters and leaves the cell's slabs */
-    double half_near[3];            /* enters the far half of each axis */
-    double half_far[3];             /* leaves the near half */
+    double near[8], far[8];         /* where the ray enters and leaves each child */
     const struct octree_node *node; /* the cell's node */
-    uint32_t left;                  /* children not yet visited, in the ray's order */
+    uint32_t left;                  /* children not yet visited */
 };
 
-/* The near and far planes of a closed range on axis k. */
-static void cross_range(const struct query *q, int k, double lo, double hi, double *near,
-                        double *far)
+/* Where the ray crosses a plane: the far half begins at `near`, the near half ends at `far`. */
+struct crossing {
+    double near, far;
+};
+
+/* For any ray. A half that a parallel ray is outside of begins at inf and ends at -inf. */
+static struct crossing cross_any(const struct query *q, int k, double plane)
 {
     const double inf = (double)INFINITY;
-    if (q->parallel >> k & 1) {
-        const bool inside = lo <= q->org[k] && q->org[k] <= hi;
-        *near = inside ? -inf : inf;
-        *far = inside ? inf : -inf;
-        return;
-    }
-    const bool negative = q->sign >> k & 1;
-    const double t0 = ((negative ? hi : lo) - q->org[k]) * q->inv[k];
-    const double t1 = ((negative ? lo : hi) - q->org[k]) * q->inv[k];
-    *near = t0 > -inf ? t0 : -inf;
-    *far = t1 < inf ? t1 : inf;
+    if (q->parallel >> k & 1)
+        return (struct crossing){q->org[k] >= plane ? -inf : inf, q->org[k] <= plane ? inf : -inf};
+    const double t = (plane - q->org[k]) * q->inv[k];
+    return (struct crossing){t, t};
 }
 
-/* Where the ray crosses the plane between the halves: the far half begins at *half_near, the near
- * half ends at *half_far. A NaN (0 * inf) cuts nothing off. */
-static void cross_plane(const struct query *q, int k, double plane, double *half_near,
-                        double *half_far)
+static struct crossing cross_common(const struct query *q, int k, double plane)
 {
-    const double inf = (double)INFINITY;
-    if (q->parallel >> k & 1) {
-        *half_near = q->org[k] >= plane ? -inf : inf;
-        *half_far = q->org[k] <= plane ? inf : -inf;
-        return;
-    }
-    const double t = (plane - q->org[k]) * q->inv[k];
-    *half_near = t > -inf ? t : -inf;
-    *half_far = t < inf ? t : inf;
+    const double d = plane - q->org[k];
+    return (struct crossing){d * q->inv[k], d * (q->inv[k] * (1.0 + QUERY_SLACK))};
 }
 
 /* Children in the order of the ray: bit i of the result is child i ^ sign. */
-static uint32_t in_ray_order(uint32_t mask, uint32_t sign)
+static inline uint32_t in_ray_order(uint32_t mask, uint32_t sign)
 {
     if (sign & 1)
         mask = (mask & 0x55) << 1 | (mask >> 1 & 0x55);
@@ -65,34 +57,53 @@ static uint32_t in_ray_order(uint32_t mask, uint32_t sign)
     return mask;
 }
 
-static void enter(struct query *q, struct level *l, const struct octree_node *node)
+/* May the part of the ray from raw `near` to `far` matter? */
+static inline bool meets(const struct query *q, double near, double far, bool common)
 {
+    if (common)
+        return near <= query_cap(q);
+    return query_meets(q, query_interval(q, near, far));
+}
+
+/* Where each child begins and ends; a NaN (0 * inf) cuts nothing off. Returns those that are not
+ * empty, as far as near and far tell. */
+static inline uint32_t split(struct level *l, const struct crossing at[3], double near, double far)
+{
+    const double inf = (double)INFINITY;
+    const pair near01 = pair_max(pair_of(-inf, at[0].near), pair_both(near));
+    const pair near23 = pair_max(pair_both(at[1].near), near01);
+    const pair near45 = pair_max(pair_both(at[2].near), near01);
+    const pair near67 = pair_max(pair_both(at[2].near), near23);
+    const pair far67 = pair_min(pair_of(at[0].far, inf), pair_both(far));
+    const pair far45 = pair_min(pair_both(at[1].far), far67);
+    const pair far23 = pair_min(pair_both(at[2].far), far67);
+    const pair far01 = pair_min(pair_both(at[2].far), far45);
+    pair_store(l->near, near01);
+    pair_store(l->near + 2, near23);
+    pair_store(l->near + 4, near45);
+    pair_store(l->near + 6, near67);
+    pair_store(l->far, far01);
+    pair_store(l->far + 2, far23);
+    pair_store(l->far + 4, far45);
+    pair_store(l->far + 6, far67);
+    return pair_at_most(near01, far01) | pair_at_most(near23, far23) << 2 |
+           pair_at_most(near45, far45) << 4 | pair_at_most(near67, far67) << 6;
+}
+
+static inline void enter(struct query *q, struct level *l, const struct octree_node *node,
+                         double near, double far, bool common)
+{
+    struct crossing at[3];
     q->nodes++;
+    for (int k = 0; k < 3; k++)
+        at[k] = common ? cross_common(q, k, node->plane[k]) : cross_any(q, k, node->plane[k]);
+    const uint32_t met = split(l, at, near, far);
     l->node = node;
-    l->left = in_ray_order(node->mask, q->sign);
-    for (int k = 0; k < 3; k++) {
-        cross_plane(q, k, node->plane[k], &l->half_near[k], &l->half_far[k]);
-        l->half_near[k] = l->half_near[k] > l->near[k] ? l->half_near[k] : l->near[k];
-        l->half_far[k] = l->half_far[k] < l->far[k] ? l->half_far[k] : l->far[k];
-    }
+    l->left = in_ray_order(node->mask, q->sign) & (common ? met : 0xff);
 }
 
-/* The slabs of the child at place `i` of the ray's order. False if it need not be visited. */
-static bool child_slabs(const struct query *q, const struct level *l, uint32_t i, double near[3],
-                        double far[3])
-{
-    double a = -(double)INFINITY, z = (double)INFINITY;
-    for (int k = 0; k < 3; k++) {
-        near[k] = i >> k & 1 ? l->half_near[k] : l->near[k];
-        far[k] = i >> k & 1 ? l->far[k] : l->half_far[k];
-        a = near[k] > a ? near[k] : a;
-        z = far[k] < z ? far[k] : z;
-    }
-    return query_meets(q, query_interval(q, a, z));
-}
-
-static const struct octree_cell *child_cell(const struct octree_pool *pool, const struct level *l,
-                                            uint32_t child)
+static inline const struct octree_cell *child_cell(const struct octree_pool *pool,
+                                                   const struct level *l, uint32_t child)
 {
     const uint32_t below = l->node->mask & ((1u << child) - 1);
     return &pool->cells.at[l->node->first + (uint32_t)__builtin_popcount(below)];
@@ -104,18 +115,24 @@ static void test_leaf(const struct octree_pool *pool, struct query *q,
     query_test_list(q, pool->refs.at + cell->first, cell->count);
 }
 
-/* Visits the node of stack[0] and all below it. */
-static void walk_nodes(const struct octree_pool *pool, struct query *q, struct level *stack)
+/* Visits a node and all below it. Inlined with `common` known. */
+__attribute__((always_inline)) static inline void walk_nodes(const struct octree_pool *pool,
+                                                             struct query *q, uint32_t root,
+                                                             double near, double far, bool common)
 {
+    struct level stack[OCTREE_MAX_DEPTH + 1];
     struct level *top = stack;
-    while (top >= stack) {
+    enter(q, top, &pool->nodes.at[root], near, far, common);
+    for (;;) {
         if (top->left == 0) {
+            if (top == stack)
+                return;
             top--;
             continue;
         }
         const uint32_t i = (uint32_t)__builtin_ctz(top->left);
         top->left &= top->left - 1;
-        if (!child_slabs(q, top, i, top[1].near, top[1].far))
+        if (!meets(q, top->near[i], top->far[i], common))
             continue;
         const struct octree_cell *cell = child_cell(pool, top, i ^ q->sign);
         if (cell->count > 0) {
@@ -123,27 +140,45 @@ static void walk_nodes(const struct octree_pool *pool, struct query *q, struct l
             if (query_done(q))
                 return;
         } else {
-            enter(q, ++top, &pool->nodes.at[cell->first]);
+            top++;
+            enter(q, top, &pool->nodes.at[cell->first], top[-1].near[i], top[-1].far[i], common);
         }
     }
 }
 
+/* The part of the ray inside a box, as raw values of t. */
+static void cross_box(const struct query *q, const accel_box *box, bool common, double *near,
+                      double *far)
+{
+    for (int k = 0; k < 3; k++) {
+        const bool negative = q->sign >> k & 1;
+        const double first = negative ? box->hi[k] : box->lo[k];
+        const double last = negative ? box->lo[k] : box->hi[k];
+        const double a = (common ? cross_common(q, k, first) : cross_any(q, k, first)).near;
+        const double z = (common ? cross_common(q, k, last) : cross_any(q, k, last)).far;
+        *near = a > *near ? a : *near;
+        *far = z < *far ? z : *far;
+    }
+}
+
+__attribute__((always_inline)) static inline void
+walk_as(const struct octree_pool *pool, const struct octree *tree, struct query *q, bool common)
+{
+    double near = common ? q->tmin : -(double)INFINITY;
+    double far = common ? query_cap(q) : (double)INFINITY;
+    cross_box(q, &tree->box, common, &near, &far);
+    if (!(near <= far) || !meets(q, near, far, common))
+        return;
+    if (tree->root.count > 0)
+        test_leaf(pool, q, &tree->root);
+    else
+        walk_nodes(pool, q, tree->root.first, near, far, common);
+}
+
 void octree_walk(const struct octree_pool *pool, const struct octree *tree, struct query *q)
 {
-    /* A level for each inner node on the way down, and one more that child_slabs writes into. */
-    struct level stack[OCTREE_MAX_DEPTH + 2];
-    double a = -(double)INFINITY, z = (double)INFINITY;
-    for (int k = 0; k < 3; k++) {
-        cross_range(q, k, tree->box.lo[k], tree->box.hi[k], &stack->near[k], &stack->far[k]);
-        a = stack->near[k] > a ? stack->near[k] : a;
-        z = stack->far[k] < z ? stack->far[k] : z;
-    }
-    if (!query_meets(q, query_interval(q, a, z)))
-        return;
-    if (tree->root.count > 0) {
-        test_leaf(pool, q, &tree->root);
-        return;
-    }
-    enter(q, stack, &pool->nodes.at[tree->root.first]);
-    walk_nodes(pool, q, stack);
+    if (query_common(q))
+        walk_as(pool, tree, q, true);
+    else
+        walk_as(pool, tree, q, false);
 }
