@@ -93,8 +93,8 @@ static void describe(struct build *build, const struct hoo_kind *h)
         lists += h->trees.at[i].root.count > 0;
     if (lists > 0)
         build_note(build, "%zu of %zu clusters are short: lists, no octree", lists, clusters);
-    info->nodes = h->top.nodes.count + h->pool.nodes.count;
-    info->leaves = h->pool.cells.count + clusters - h->pool.nodes.count;
+    info->nodes = h->top.nodes.count + h->pool.nodes;
+    info->leaves = h->pool.leaves;
     info->references = h->pool.refs.count;
     info->depth += h->top.depth;
 }

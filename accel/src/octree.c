@@ -61,8 +61,8 @@ static bool build(struct build *build)
                       1))
         return false;
     octree_pool_trim(&o->base.memory, &o->pool);
-    o->base.info.nodes = o->pool.nodes.count;
-    o->base.info.leaves = o->pool.cells.count + 1 - o->pool.nodes.count;
+    o->base.info.nodes = o->pool.nodes;
+    o->base.info.leaves = o->pool.leaves;
     o->base.info.references = o->pool.refs.count;
     return true;
 }

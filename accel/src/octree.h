@@ -4,7 +4,7 @@
  *
  * Encoding: a cell is a leaf, a run of references to primitives, or an inner node. A node halves
  * its cell by one plane per axis, stored once for all eight children; it has a mask of the
- * children that hold something, which are consecutive cells. Child bits: 1 upper x, 2 upper y,
+ * children that hold something, which follow it in memory. Child bits: 1 upper x, 2 upper y,
  * 4 upper z. A plane at infinity leaves its axis whole: every primitive meets both halves, so
  * halving would only list all of them twice. Empty cells are not stored. The cells' boxes are not
  * stored either: they follow from the root's box and the planes.
@@ -25,23 +25,53 @@
  * depth 40 a cell's side is 1e-12 of the root's. */
 enum { OCTREE_MAX_DEPTH = 40 };
 
-/* A leaf with `count` references from `first` on, or, if count is 0, the inner node `first`. */
+/* A leaf with `count` references from `first` on, or, if count is 0, the inner node that begins at
+ * word `first` of the pool. */
 struct octree_cell {
     uint32_t first, count;
 };
 
+/* An inner node and, right behind it, its children: what a walk needs is in one or two lines of the
+ * cache. */
 struct octree_node {
-    double plane[3]; /* where the cell is halved; INFINITY: this axis is left whole */
-    uint32_t first;  /* its first child in the pool's cells */
-    uint32_t mask;   /* bit c: child c holds something */
+    double plane[3];            /* where the cell is halved; INFINITY: this axis is left whole */
+    uint32_t mask;              /* bit c: child c holds something */
+    uint32_t unused;            /* fills up to a whole word */
+    struct octree_cell child[]; /* those that hold something, by rising number */
 };
 
 /* The parts of one or many octrees. */
 struct octree_pool {
-    ARRAY_OF(struct octree_node) nodes;
-    ARRAY_OF(struct octree_cell) cells;
+    ARRAY_OF(uint64_t) words; /* the inner nodes, each as many words as it needs */
     ARRAY_OF(uint32_t) refs;
+    size_t nodes, leaves; /* how many there are */
 };
+
+/* Bits set in the lower 8. */
+static inline uint32_t octree_bits(uint32_t mask)
+{
+    mask -= mask >> 1 & 0x55;
+    mask = (mask & 0x33) + (mask >> 2 & 0x33);
+    return (mask + (mask >> 4)) & 0x0f;
+}
+
+/* Words of a node with `children` of them. */
+static inline size_t octree_words(uint32_t children)
+{
+    return (sizeof(struct octree_node) + children * sizeof(struct octree_cell)) / sizeof(uint64_t);
+}
+
+/* The inner node at a word. */
+static inline struct octree_node *octree_node_at(const struct octree_pool *pool, uint32_t word)
+{
+    return (struct octree_node *)(void *)(pool->words.at + word);
+}
+
+/* The child of a number that the node's mask has. */
+static inline const struct octree_cell *octree_child(const struct octree_node *node, uint32_t child)
+{
+    return &node->child[octree_bits(node->mask & ((1u << child) - 1))];
+}
 
 struct octree {
     accel_box box;           /* of the root */

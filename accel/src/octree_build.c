@@ -158,21 +158,27 @@ static double volume_share(uint32_t depth)
     return ldexp(1.0, -3 * (int)depth);
 }
 
+static bool too_large(const struct grower *g, const char *what)
+{
+    error_set(
+        g->build->error, ACCEL_TOO_LARGE,
+        "build %s: more than 4294967295 %s; nothing was built, allow more primitives per leaf "
+        "or less depth",
+        g->build->a->kind->info.name, what);
+    return false;
+}
+
 static bool make_leaf(struct grower *g, const struct task *t, struct octree_cell *cell)
 {
     struct memory *m = &g->build->a->memory;
     const size_t first = g->pool->refs.count;
-    if (first + t->count > ACCEL_NONE) {
-        error_set(g->build->error, ACCEL_TOO_LARGE,
-                  "build %s: more than 4294967295 references; nothing was built, allow more "
-                  "primitives per leaf or less depth",
-                  g->build->a->kind->info.name);
-        return false;
-    }
+    if (first + t->count > ACCEL_NONE)
+        return too_large(g, "references");
     if (!array_extend(m, &g->pool->refs, t->count))
         return build_no_memory(g->build);
     memcpy(g->pool->refs.at + first, g->stack.at + t->begin, t->count * sizeof(uint32_t));
     *cell = (struct octree_cell){(uint32_t)first, t->count};
+    g->pool->leaves++;
     g->depth = t->depth > g->depth ? t->depth : g->depth;
     g->done += volume_share(t->depth);
     return build_tick(g->build, g->from + (g->to - g->from) * fmin(g->done, 1.0));
@@ -197,37 +203,41 @@ static bool push_children(struct grower *g, const struct task *t, const struct s
 
 /* What a subtree adds to the pool is taken back by going to its mark. */
 struct mark {
-    size_t nodes, cells, refs;
+    size_t words, refs, nodes, leaves;
 };
 
 static struct mark mark(const struct octree_pool *p)
 {
-    return (struct mark){p->nodes.count, p->cells.count, p->refs.count};
+    return (struct mark){p->words.count, p->refs.count, p->nodes, p->leaves};
 }
 
 static void take_back(struct octree_pool *p, struct mark m)
 {
-    p->nodes.count = m.nodes;
-    p->cells.count = m.cells;
+    p->words.count = m.words;
     p->refs.count = m.refs;
+    p->nodes = m.nodes;
+    p->leaves = m.leaves;
 }
 
 static bool grow(struct grower *g, struct task *t, struct octree_cell *cell, double *cost);
 
-/* Makes room for a node and its children. */
+/* Makes a node with room for its children. */
 static bool make_node(struct grower *g, const struct split *s, struct octree_cell *cell)
 {
     struct octree_pool *p = g->pool;
-    struct memory *m = &g->build->a->memory;
-    struct octree_node node = {
-        {s->plane[0], s->plane[1], s->plane[2]}, (uint32_t)p->cells.count, 0};
+    const size_t first = p->words.count;
+    uint32_t mask = 0;
     for (uint32_t c = 0; c < 8; c++)
-        node.mask |= (uint32_t)(s->count[c] > 0) << c;
-    if (!array_extend(m, &p->nodes, 1) ||
-        !array_extend(m, &p->cells, (size_t)__builtin_popcount(node.mask)))
+        mask |= (uint32_t)(s->count[c] > 0) << c;
+    const size_t words = octree_words(octree_bits(mask));
+    if (first + words > ACCEL_NONE)
+        return too_large(g, "words of nodes");
+    if (!array_extend(&g->build->a->memory, &p->words, words))
         return build_no_memory(g->build);
-    *cell = (struct octree_cell){(uint32_t)p->nodes.count - 1, 0};
-    p->nodes.at[cell->first] = node;
+    *cell = (struct octree_cell){(uint32_t)first, 0};
+    struct octree_node *node = octree_node_at(p, cell->first);
+    *node = (struct octree_node){{s->plane[0], s->plane[1], s->plane[2]}, mask, 0};
+    p->nodes++;
     return true;
 }
 
@@ -236,7 +246,7 @@ static bool grow_children(struct grower *g, const struct task *t, const struct s
                           const struct octree_cell *cell, double *cost)
 {
     size_t begin = g->stack.count - (size_t)s->sum;
-    uint32_t at = g->pool->nodes.at[cell->first].first;
+    uint32_t at = 0;
     *cost = NODE_COST;
     for (uint32_t c = 0; c < 8; c++) {
         if (s->count[c] == 0) {
@@ -254,7 +264,7 @@ static bool grow_children(struct grower *g, const struct task *t, const struct s
         double child_cost;
         if (!grow(g, &child, &made, &child_cost))
             return false;
-        g->pool->cells.at[at++] = made;
+        octree_node_at(g->pool, cell->first)->child[at++] = made;
         *cost += box_chance(&child.box, &t->box) * child_cost;
         begin += s->count[c];
     }
@@ -325,14 +335,12 @@ bool octree_build(struct build *build, struct octree_pool *pool, struct octree *
 
 void octree_pool_trim(struct memory *m, struct octree_pool *pool)
 {
-    array_trim(m, &pool->nodes);
-    array_trim(m, &pool->cells);
+    array_trim(m, &pool->words);
     array_trim(m, &pool->refs);
 }
 
 void octree_pool_free(struct memory *m, struct octree_pool *pool)
 {
-    array_free(m, &pool->nodes);
-    array_free(m, &pool->cells);
+    array_free(m, &pool->words);
     array_free(m, &pool->refs);
 }

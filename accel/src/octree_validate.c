@@ -66,11 +66,8 @@ static bool check_child(const struct checker *c, const struct octree_node *node,
     uint32_t *list = meeting(c, ids, count, &box, &kept);
     if (!list)
         return false;
-    const uint32_t below = node->mask & ((1u << child) - 1);
-    const struct octree_cell *cell =
-        &c->pool->cells.at[node->first + (uint32_t)__builtin_popcount(below)];
     const bool fine = node->mask >> child & 1
-                          ? check_cell(c, cell, &box, list, kept, depth)
+                          ? check_cell(c, octree_child(node, child), &box, list, kept, depth)
                           : kept == 0 || broken(c, "an empty cell meets primitive", list[0]);
     free(list);
     return fine;
@@ -83,14 +80,15 @@ static bool check_cell(const struct checker *c, const struct octree_cell *cell,
         return broken(c, "a cell lies too deep, at", depth);
     if (cell->count > 0)
         return check_leaf(c, cell, ids, count);
-    if (cell->first >= c->pool->nodes.count)
+    if (cell->first + octree_words(0) > c->pool->words.count)
         return broken(c, "a cell names a node that does not exist,", cell->first);
-    const struct octree_node *node = &c->pool->nodes.at[cell->first];
+    const struct octree_node *node = octree_node_at(c->pool, cell->first);
+    if (node->mask > 0xff ||
+        cell->first + octree_words(octree_bits(node->mask)) > c->pool->words.count)
+        return broken(c, "children end behind the pool, node", cell->first);
     for (int k = 0; k < 3; k++)
         if (!isinf(node->plane[k]) && !(box->lo[k] < node->plane[k] && node->plane[k] < box->hi[k]))
             return broken(c, "a plane lies outside its cell, node", cell->first);
-    if (node->first + (size_t)__builtin_popcount(node->mask) > c->pool->cells.count)
-        return broken(c, "children end behind the cells, node", cell->first);
     for (uint32_t child = 0; child < 8; child++)
         if (!check_child(c, node, child, box, ids, count, depth + 1))
             return false;

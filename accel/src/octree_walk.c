@@ -102,13 +102,6 @@ static inline void enter(struct query *q, struct level *l, const struct octree_n
     l->left = in_ray_order(node->mask, q->sign) & (common ? met : 0xff);
 }
 
-static inline const struct octree_cell *child_cell(const struct octree_pool *pool,
-                                                   const struct level *l, uint32_t child)
-{
-    const uint32_t below = l->node->mask & ((1u << child) - 1);
-    return &pool->cells.at[l->node->first + (uint32_t)__builtin_popcount(below)];
-}
-
 static void test_leaf(const struct octree_pool *pool, struct query *q,
                       const struct octree_cell *cell)
 {
@@ -122,7 +115,7 @@ __attribute__((always_inline)) static inline void walk_nodes(const struct octree
 {
     struct level stack[OCTREE_MAX_DEPTH + 1];
     struct level *top = stack;
-    enter(q, top, &pool->nodes.at[root], near, far, common);
+    enter(q, top, octree_node_at(pool, root), near, far, common);
     for (;;) {
         if (top->left == 0) {
             if (top == stack)
@@ -134,14 +127,15 @@ __attribute__((always_inline)) static inline void walk_nodes(const struct octree
         top->left &= top->left - 1;
         if (!meets(q, top->near[i], top->far[i], common))
             continue;
-        const struct octree_cell *cell = child_cell(pool, top, i ^ q->sign);
+        const struct octree_cell *cell = octree_child(top->node, i ^ q->sign);
         if (cell->count > 0) {
             test_leaf(pool, q, cell);
             if (query_done(q))
                 return;
         } else {
             top++;
-            enter(q, top, &pool->nodes.at[cell->first], top[-1].near[i], top[-1].far[i], common);
+            enter(q, top, octree_node_at(pool, cell->first), top[-1].near[i], top[-1].far[i],
+                  common);
         }
     }
 }
