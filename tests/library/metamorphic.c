@@ -255,6 +255,20 @@ static void test_lengths(void **state)
     try_change("scale-1", &(struct change){.name = "directions times 2^-500", .lengthen = -500});
 }
 
+/* Far beyond where the square of a length is a double. */
+static void test_spheres(void **state)
+{
+    (void)state;
+    static const int power[] = {250, -250, 700, -700, 900, -900};
+    for (size_t i = 0; i < sizeof power / sizeof *power; i++) {
+        char name[60];
+        snprintf(name, sizeof name, "scaled by 2^%d", power[i]);
+        try_change("one-sphere", &(struct change){.name = name, .scale = power[i]});
+        snprintf(name, sizeof name, "directions times 2^%d", power[i]);
+        try_change("one-sphere", &(struct change){.name = name, .lengthen = power[i]});
+    }
+}
+
 static void test_mirrors(void **state)
 {
     (void)state;
@@ -353,8 +367,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_scales),  cmocka_unit_test(test_lengths),
-        cmocka_unit_test(test_mirrors), cmocka_unit_test(test_turns),
-        cmocka_unit_test(test_orders),  cmocka_unit_test(test_cuts),
+        cmocka_unit_test(test_spheres), cmocka_unit_test(test_mirrors),
+        cmocka_unit_test(test_turns),   cmocka_unit_test(test_orders),
+        cmocka_unit_test(test_cuts),
     };
     return cmocka_run_group_tests_name("metamorphic", tests, NULL, NULL);
 }
