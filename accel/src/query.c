@@ -101,11 +101,9 @@ bool accel_report(accel_probe *probe, double t, double u, double v)
 {
     struct probing *p = (struct probing *)probe;
     struct query *q = p->q;
-    if (isnan(t))
-        return false;
     const bool raw = p->order == ACCEL_ORDER_RAW;
     const double key = raw ? t : clamp(t, p->s);
-    if (!inside(q, key))
+    if (!inside(q, t) || !inside(q, key))
         return false;
     if (raw && t < p->s.a)
         q->outside++;
