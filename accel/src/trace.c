@@ -70,11 +70,11 @@ static void prepare(struct query *q, const accel *a, const accel_ray *ray, struc
 }
 
 /* One walk: the first hits after q->last. Things without bounds come first: they may set the
- * limit. */
+ * limit. In a point query all keys are 0, and what begins at infinity holds no point. */
 static void walk(struct query *q, const accel *a)
 {
     q->count = 0;
-    q->limit = (double)INFINITY;
+    q->limit = q->point ? 0.0 : (double)INFINITY;
     memset(q->mailbox, 0xff, sizeof q->mailbox);
     query_test_all(q, a->prims.unbounded.at, a->prims.unbounded.count);
     if (a->prims.bounded.count > 0 && !query_done(q))

@@ -374,6 +374,38 @@ static void act(accel_probe *probe)
 }
 
 /* Two objects at z = 1..2 and z = 3..4, seen from the origin along z. */
+/* A point in one of a thousand boxes that do not touch: a structure leads there. */
+static void test_point_cost(void **state)
+{
+    (void)state;
+    enum { SIDE = 10, COUNT = SIDE * SIDE * SIDE };
+    accel_box boxes[COUNT];
+    for (int i = 0; i < COUNT; i++) {
+        const double at[3] = {i % SIDE, i / SIDE % SIDE, i / (SIDE * SIDE)};
+        for (int k = 0; k < 3; k++) {
+            boxes[i].lo[k] = at[k] + 0.25;
+            boxes[i].hi[k] = at[k] + 0.75;
+        }
+    }
+    const accel_geometry g = {.type = ACCEL_OBJECTS,
+                              .objects = {boxes, COUNT, ACCEL_ORDER_KEY, act, NULL}};
+    size_t kinds;
+    const accel_kind_info *const *kind = accel_kinds(&kinds);
+    for (size_t i = 0; i < kinds; i++) {
+        accel *a;
+        accel_info info;
+        assert_int_equal(accel_build(&a, &(accel_scene){&g, 1}, kind[i]->name, NULL, NULL),
+                         ACCEL_OK);
+        accel_describe(a, &info);
+        struct ids found = {.count = 0};
+        accel_query q = {.user = NULL};
+        accel_point(a, (const double[3]){4.5, 5.5, 3.5}, store_id, &found, &q);
+        assert_true(found.count == 1 && found.at[0].prim == 354);
+        assert_true(strcmp(info.kind, "linear") == 0 || (q.tests <= 32 && q.nodes <= 64));
+        accel_free(a);
+    }
+}
+
 static const accel_box two_boxes[2] = {{{-1, -1, 1}, {1, 1, 2}}, {{-1, -1, 3}, {1, 1, 4}}};
 
 static accel_ray along_z(void)
@@ -427,6 +459,9 @@ static void test_ignored(void **state)
             accel_hit hit;
             assert_true(accel_closest(a, &ray, &hit, NULL));
             assert_true(hit.t == 3.75 && hit.u == 1.0 && hit.prim == 1);
+            ray.tmin = 0.75; /* the first box lies in the interval, its reports do not */
+            ray.tmax = 2.75;
+            assert_false(accel_any(a, &ray, NULL));
             accel_free(a);
         }
     }
@@ -553,13 +588,14 @@ static void test_counters(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_special),  cmocka_unit_test(test_work),
-        cmocka_unit_test(test_ends),     cmocka_unit_test(test_behind),
-        cmocka_unit_test(test_skip),     cmocka_unit_test(test_skip_none),
-        cmocka_unit_test(test_stop),     cmocka_unit_test(test_points),
-        cmocka_unit_test(test_callback), cmocka_unit_test(test_ignored),
-        cmocka_unit_test(test_lies),     cmocka_unit_test(test_limit),
-        cmocka_unit_test(test_nested),   cmocka_unit_test(test_counters),
+        cmocka_unit_test(test_special),    cmocka_unit_test(test_work),
+        cmocka_unit_test(test_ends),       cmocka_unit_test(test_behind),
+        cmocka_unit_test(test_skip),       cmocka_unit_test(test_skip_none),
+        cmocka_unit_test(test_stop),       cmocka_unit_test(test_points),
+        cmocka_unit_test(test_point_cost), cmocka_unit_test(test_callback),
+        cmocka_unit_test(test_ignored),    cmocka_unit_test(test_lies),
+        cmocka_unit_test(test_limit),      cmocka_unit_test(test_nested),
+        cmocka_unit_test(test_counters),
     };
     return cmocka_run_group_tests_name("query", tests, make_list, free_list);
 }
