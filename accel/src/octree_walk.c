@@ -161,7 +161,8 @@ walk_as(const struct octree_pool *pool, const struct octree *tree, struct query 
     double near = common ? q->tmin : -(double)INFINITY;
     double far = common ? query_cap(q) : (double)INFINITY;
     cross_box(q, &tree->box, common, &near, &far);
-    if (!(near <= far) || !meets(q, near, far, common))
+    /* Raw ends without slack tell nothing before they are grown. */
+    if ((common && !(near <= far)) || !meets(q, near, far, common))
         return;
     if (tree->root.count > 0)
         test_leaf(pool, q, &tree->root);
