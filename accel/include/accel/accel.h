@@ -56,7 +56,8 @@ typedef struct accel accel;
 /* No geometry, no primitive: see accel_id. */
 #define ACCEL_NONE UINT32_MAX
 
-/* Coordinates beyond this magnitude (2^1000) are out of range: see accel_build. */
+/* Coordinates beyond this magnitude (2^1000) are out of range: see accel_build. In the box of an
+ * object they count as infinite. */
 #define ACCEL_MAX_COORDINATE 0x1p1000
 
 /* ---------------------------------------------------------------- errors ---- */
@@ -220,9 +221,9 @@ typedef struct accel_hooks {
  * config: "kind[:key=value[,key=value]...]", for example "octree:leaf=12,depth=10"; accel_kinds
  * lists what there is. NULL or "" stand for ACCEL_DEFAULT_CONFIG. No option ever has to be given.
  *
- * Primitives with a NaN or infinite coordinate, an inverted box, a radius that is not positive or a
- * coordinate beyond ACCEL_MAX_COORDINATE are skipped, counted and their first ids kept in
- * accel_info; so are, counted apart, triangles with two equal vertices, which no ray can hit. Ids
+ * Triangles and spheres with a coordinate that is NaN, infinite or beyond ACCEL_MAX_COORDINATE or
+ * with a radius that is not positive, and objects with a NaN in their box or an inverted one, are
+ * skipped, counted and their first ids kept in accel_info; so are, counted apart, triangles with two equal vertices, which no ray can hit. Ids
  * of the others do not change.
  *
  * Returns ACCEL_OK and stores the structure in *out, which the caller ends with accel_free.
