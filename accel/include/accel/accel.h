@@ -223,8 +223,8 @@ typedef struct accel_hooks {
  *
  * Triangles and spheres with a coordinate that is NaN, infinite or beyond ACCEL_MAX_COORDINATE or
  * with a radius that is not positive, and objects with a NaN in their box or an inverted one, are
- * skipped, counted and their first ids kept in accel_info; so are, counted apart, triangles with two equal vertices, which no ray can hit. Ids
- * of the others do not change.
+ * skipped, counted and their first ids kept in accel_info; so are, counted apart, triangles with
+ * two equal vertices, which no ray can hit. Ids of the others do not change.
  *
  * Returns ACCEL_OK and stores the structure in *out, which the caller ends with accel_free.
  * Otherwise returns why, sets *out to NULL, fills *error (which may be NULL) and holds nothing.
