@@ -17,7 +17,7 @@
  * builder, every subtree that a leaf would beat by predicted cost is then collapsed, bottom-up.
  */
 #include "bsp.h"
-#include "cells.h"
+#include "frame.h"
 
 #include <string.h>
 
@@ -360,6 +360,12 @@ static bool grow(struct grower *g, struct task *t, struct subtree *out)
     struct split s;
     const size_t node = b->nodes.count, refs = b->refs.count;
     const double done = g->done;
+    if (node >= ACCEL_NONE) {
+        error_set(g->build->error, ACCEL_TOO_LARGE,
+                  "build bsp: more than 4294967295 nodes; nothing was built, allow more primitives "
+                  "per leaf");
+        return false;
+    }
     if (!array_extend(&b->base.memory, &b->nodes, 1))
         return build_no_memory(g->build);
     if (small_enough(g, t) || !find_split(g, t, &s))

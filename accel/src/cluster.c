@@ -4,21 +4,21 @@
  *
  * The idea is that of Cazals, Drettakis and Puech (see cluster.h). Their exact rules are not
  * public; these are ours, each with its reason:
- * - Filter (sizes.c): a new size class begins where an octave of size is empty. A fixed number of
- *   classes would cut meshes, whose triangles vary without gaps, into interleaved pieces. `octaves`
- *   limits the span. What is smaller than 2^-18 of the scene counts as that large.
- * - Near (near.c): boxes that touch are connected (connectivity 0.0, Havran's published setting for
- *   hug). A given connectivity c > 0 connects over gaps up to c times the largest size of the
- * class.
- * - Too many (crumbs.c): if there are more parts than one for each PARTS_CRUMB primitives, the
- *   small ones are gathered by distance.
- * - Overlap (nested.c): parts in each other's boxes are joined where one octree is cheaper.
+ * - Filter (cluster_sizes.c): a new size class begins where an octave of size is empty. A fixed
+ * number of classes would cut meshes, whose triangles vary without gaps, into interleaved pieces.
+ * `octaves` limits the span. What is smaller than 2^-18 of the scene counts as that large.
+ * - Near (cluster_near.c): boxes that touch are connected (connectivity 0.0, Havran's published
+ * setting for hug). A given connectivity c > 0 connects over gaps up to c times the largest size of
+ * the class.
+ * - Too many (cluster_crumbs.c): if there are more parts than one for each PARTS_CRUMB primitives,
+ * the small ones are gathered by distance.
+ * - Overlap (cluster_nested.c): parts in each other's boxes are joined where one octree is cheaper.
  * With a given connectivity neither of the last two is done: the user gets what he asked for.
  */
 #include "cluster.h"
 
 #include "order.h"
-#include "parts.h"
+#include "cluster_parts.h"
 
 static bool make_parts(struct parts *p, struct cluster_rule rule)
 {

@@ -3,7 +3,7 @@
  * hoo: the hierarchy of octrees of Revelles, Aguilera, Aguado, Lastra, Garcia and Montes, "A
  * Spatial Representation for Ray-Scene Intersection Test Improvement in Complex Scenes": clusters
  * (cluster.h), an octree for each (octree.h), neighbours joined pairwise into a balanced binary
- * tree (pairing.h). The tree is walked nearest child first; clusters may overlap, so the walk goes
+ * tree (hoo_pairing.h). The tree is walked nearest child first; clusters may overlap, so the walk goes
  * on until all that is left begins after the best hit.
  *
  * A cluster of few primitives is a list: its octree's root is a leaf. Where the scene is one
@@ -17,7 +17,7 @@
  */
 #include "cluster.h"
 #include "octree.h"
-#include "pairing.h"
+#include "hoo_pairing.h"
 
 #include <stdlib.h>
 

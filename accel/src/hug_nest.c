@@ -72,6 +72,13 @@ static bool make_search(struct nester *s)
     struct memory *m = &s->build->a->memory;
     const uint32_t count = (uint32_t)s->c->clusters.count, ids = s->build->a->prims.count;
     struct ids refs = {NULL, 0, 0};
+    if ((uint64_t)ids + count + 1 > ACCEL_NONE) {
+        error_set(s->build->error, ACCEL_TOO_LARGE,
+                  "build hug: %u primitives and %u grids, at most 4294967294 together are allowed; "
+                  "nothing was built",
+                  ids, count);
+        return false;
+    }
     if (!array_extend(m, &s->search.grids, (size_t)count + 1))
         return build_no_memory(s->build);
     s->search.grids.at[0] = (struct grid){.box = all_clusters(s->c)};

@@ -17,7 +17,7 @@ struct keyed {
 bool order_by_key(struct memory *m, struct keyed *at, size_t count);
 
 /* The place of a box's middle on the Morton curve, 19 bits for each axis: below 2^57. The box is
- * in units of a frame (cells.h). */
+ * in units of a frame (frame.h). */
 uint64_t order_morton(const accel_box *unit);
 
 #endif

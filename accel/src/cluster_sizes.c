@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "sizes.h"
+#include "cluster_sizes.h"
 
 /* Values of a double's exponent field. */
 enum { EXPONENTS = 2048 };

@@ -13,8 +13,8 @@
  *   into crumbs, parts are made of what is together in the cells of a grid with about one cell for
  *   each few primitives, at a fraction of the time; crumbs.c makes clusters of these.
  */
-#include "parts.h"
-#include "touching.h"
+#include "cluster_parts.h"
+#include "cluster_touching.h"
 
 enum {
     LOOSE_MIN = 4096,     /* units below which a sample is not worth taking */

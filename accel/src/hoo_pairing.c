@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "pairing.h"
+#include "hoo_pairing.h"
 
 #include "order.h"
 

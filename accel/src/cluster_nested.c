@@ -15,7 +15,7 @@
  * cell at a few of the parts there. Boxes that grew are found anew in the next of a few rounds.
  */
 #include "order.h"
-#include "parts.h"
+#include "cluster_parts.h"
 
 enum { TINY = 8, LOOKED_AT = 8, ROUNDS = 3 };
 

@@ -3,11 +3,11 @@
  * Clusters in the making: components of a scene's primitives, and how some of them are joined.
  * Union-find over components; a root's entry holds what is true of all that was joined with it.
  */
-#ifndef ACCEL_PARTS_H
-#define ACCEL_PARTS_H
+#ifndef ACCEL_CLUSTER_PARTS_H
+#define ACCEL_CLUSTER_PARTS_H
 
 #include "cluster.h"
-#include "sizes.h"
+#include "cluster_sizes.h"
 
 /* Primitives that follow each other in order of id, which touch and are handled as one: those from
  * position `first` in the list of bounded ids up to the next unit's. */

@@ -10,11 +10,11 @@
  * most 3/4 of them: the depth is at most log(count) / log(4/3), 77 for 2^32, and all rounds
  * together take linear time.
  */
-#ifndef ACCEL_PAIRING_H
-#define ACCEL_PAIRING_H
+#ifndef ACCEL_HOO_PAIRING_H
+#define ACCEL_HOO_PAIRING_H
 
 #include "boxtree.h"
-#include "cells.h"
+#include "cluster_cells.h"
 #include "kind.h"
 
 struct boxtree {

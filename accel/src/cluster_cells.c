@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "cells.h"
+#include "cluster_cells.h"
 
 enum { SMALLEST_ROOM = 64 };
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "parts.h"
+#include "cluster_parts.h"
 
 uint32_t parts_root(struct parts *p, uint32_t part)
 {

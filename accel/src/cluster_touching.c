@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "touching.h"
+#include "cluster_touching.h"
 
 /* Groups that one cell may have. */
 enum { CROWD = 32 };

@@ -14,10 +14,10 @@
  * box around others in one cell. Cells are about as large as boxes, so that happens at close range
  * only. Exact for what is told apart: boxes of two components are disjoint in every cell.
  */
-#ifndef ACCEL_TOUCHING_H
-#define ACCEL_TOUCHING_H
+#ifndef ACCEL_CLUSTER_TOUCHING_H
+#define ACCEL_CLUSTER_TOUCHING_H
 
-#include "cells.h"
+#include "cluster_cells.h"
 
 /* Boxes of one component in one cell. */
 struct group {

@@ -3,10 +3,10 @@
  * Step 1a of clustering: filter by size. A primitive's size is the longest side of its padded box,
  * in octaves (factors of two) of the scene; a size class is a run of octaves without a gap.
  */
-#ifndef ACCEL_SIZES_H
-#define ACCEL_SIZES_H
+#ifndef ACCEL_CLUSTER_SIZES_H
+#define ACCEL_CLUSTER_SIZES_H
 
-#include "cells.h"
+#include "cluster_cells.h"
 #include "kind.h"
 
 /* Octaves of size that share one grid of cells. */

@@ -13,8 +13,8 @@
  * The predicted cost of a partition is that of its clusters (parts_cost) and of the tree over
  * them: a ray that meets the box around all visits about log2 of their number in nodes.
  */
-#include "parts.h"
-#include "touching.h"
+#include "cluster_parts.h"
+#include "cluster_touching.h"
 
 /* Half the gap, in cells: the gap is a quarter of a cell. */
 #define REACH 0.125

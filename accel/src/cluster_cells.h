@@ -10,46 +10,17 @@
  * Encoding: open addressing with linear probing, at most half full; keys hold class, octave and the
  * three indices.
  */
-#ifndef ACCEL_CELLS_H
-#define ACCEL_CELLS_H
+#ifndef ACCEL_CLUSTER_CELLS_H
+#define ACCEL_CLUSTER_CELLS_H
 
 #include <string.h>
 
-#include "box.h"
+#include "frame.h"
 #include "memory.h"
 
 /* Octaves 0 .. CELLS_OCTAVES - 1: 18 bits for an index, 5 for an octave, 5 for a class. The finest
  * cells are 2^-18 of the scene, 4e-6; what is smaller counts as that large. */
 enum { CELLS_OCTAVES = 19 };
-
-/* Where the scene lies. */
-struct frame {
-    double lo[3]; /* its box's low corner */
-    double scale; /* a power of two */
-};
-
-static inline struct frame frame_of(const accel_box *scene)
-{
-    double side = 0.0;
-    int exponent;
-    for (int k = 0; k < 3; k++)
-        side = fmax(side, scene->hi[k] - scene->lo[k]);
-    frexp(side, &exponent);
-    /* A scene smaller than 2^-1000 would need a scale beyond double's range. */
-    const double scale = ldexp(1.0, exponent < -1000 ? 1000 : -exponent);
-    return (struct frame){{scene->lo[0], scene->lo[1], scene->lo[2]}, scale};
-}
-
-/* A box in units of the frame: inside [0, 1). */
-static inline accel_box frame_box(const struct frame *f, const accel_box *b)
-{
-    accel_box unit;
-    for (int k = 0; k < 3; k++) {
-        unit.lo[k] = (b->lo[k] - f->lo[k]) * f->scale;
-        unit.hi[k] = (b->hi[k] - f->lo[k]) * f->scale;
-    }
-    return unit;
-}
 
 /* The finest octave whose cells are larger than a size in 0 .. 1. */
 static inline uint32_t octave_of(double size)
