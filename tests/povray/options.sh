@@ -140,6 +140,13 @@ verifying() {
         check "  but not $kind" run 0 "boxes-$kind" "$ours" boxes +BM3 Accelerator="$kind" +BV
         check "    which finds all hits" same_pixels "boxes-$kind" boxes-stock
     done
+    run 0 inside-stock "$stock" inside -MB
+    for kind in $(all_kinds); do
+        check "$kind finds the objects around a point" run 0 "inside-$kind" "$ours" inside +BM3 \
+            Accelerator="$kind" +BV
+        check "  as verified" says "inside-$kind" '^Accelerator verified: *[1-9][0-9]* *Differences: *0$'
+        check "  and changes no pixel" same_pixels "inside-$kind" inside-stock
+    done
     # a box that nothing tells to be wrong; stock's own methods fail here too
     run 0 far-stock "$stock" far -MB
     check "a wrong box is found out" run 1 far "$ours" far +BM3 +BXoctree Accelerator_Verify=On

@@ -352,6 +352,63 @@ bool Accelerator::Find(Trace& trace, AccelQuery& query) const
 }
 
 
+/// A search for the objects around a point.
+struct AccelPointQuery
+{
+	const vector<ObjectPtr>& objects;
+	const DBL *point;
+	TraceThreadData *thread;
+	vector<ObjectPtr> found;
+
+	AccelPointQuery(const vector<ObjectPtr>& objs, const VECTOR p, TraceThreadData *t) : objects(objs), point(p), thread(t) { }
+
+	/// Tests an object as TracePixel::InitRayContainerState does. The box of each that passes holds the point.
+	void Test(ObjectPtr object)
+	{
+		if((object->interior != NULL) && Inside_BBox(point, object->BBox) && object->Inside(point, thread))
+			found.push_back(object);
+	}
+
+	void SearchLinearly()
+	{
+		for(vector<ObjectPtr>::const_iterator object = objects.begin(); object != objects.end(); object++)
+			Test(*object);
+	}
+};
+
+/// The library names the objects whose boxes hold a point, in the order of the scene.
+static bool Test_Point_In_Object(void *user, accel_id id)
+{
+	AccelPointQuery& query = *reinterpret_cast<AccelPointQuery *>(user);
+
+	query.Test(query.objects[id.prim]);
+	return true;
+}
+
+void Accelerator::FindContainingInteriors(const VECTOR point, TraceThreadData *thread, RayInteriorVector& interiors) const
+{
+	AccelPointQuery query(objects, point, thread);
+	accel_query counters = { NULL, 0, 0, 0, 0 };
+	RenderStatistics& stats = thread->Stats();
+
+	accel_point(structure, point, Test_Point_In_Object, &query, &counters);
+	if(counters.refused > 0)
+		query.SearchLinearly();
+
+	stats[Accel_Queries]++;
+	if(query.found.empty() == false)
+		stats[Accel_Queries_Succeeded]++;
+	stats[Accel_Nodes] += counters.nodes;
+	stats[Accel_Box_Tests] += counters.tests;
+	stats[Accel_Rays_Refused] += counters.refused;
+
+	if(verify)
+		VerifyInteriors(point, thread, query.found);
+	for(vector<ObjectPtr>::const_iterator object = query.found.begin(); object != query.found.end(); object++)
+		interiors.push_back((*object)->interior);
+}
+
+
 
 /*****************************************************************************
  *
@@ -372,8 +429,13 @@ void Accelerator::Verify(Trace& trace, const AccelQuery& query, DBL limit, bool 
 	   (!found || ((query.best.Object == linear.Object) && (memcmp(&query.best.Depth, &linear.Depth, sizeof(DBL)) == 0))))
 		return;
 
-	query.thread->Stats()[Accel_Queries_Different]++;
-	ReportDifference(query, limit, Describe(found, index, query.best), Describe(linearFound, linearIndex, linear));
+	const VECTOR& o = query.ray.Origin;
+	const VECTOR& d = query.ray.Direction;
+	char ray[512];
+
+	snprintf(ray, sizeof(ray), "ray from <%.17g, %.17g, %.17g> along <%.17g, %.17g, %.17g> up to %.17g (%a %a %a, %a %a %a, %a)",
+	         o[X], o[Y], o[Z], d[X], d[Y], d[Z], limit, o[X], o[Y], o[Z], d[X], d[Y], d[Z], limit);
+	ReportDifference(query.thread, ray, Describe(found, index, query.best), Describe(linearFound, linearIndex, linear));
 }
 
 std::string Accelerator::Describe(bool found, uint32_t index, const Intersection& isect) const
@@ -387,8 +449,24 @@ std::string Accelerator::Describe(bool found, uint32_t index, const Intersection
 	return str(format("object %u (%s) at %s") % index % boost::core::demangle(typeid(*objects[index]).name()) % depth);
 }
 
-void Accelerator::ReportDifference(const AccelQuery& query, DBL limit, const std::string& ours, const std::string& linear) const
+void Accelerator::VerifyInteriors(const VECTOR point, TraceThreadData *thread, const vector<ObjectPtr>& found) const
 {
+	AccelPointQuery linear(objects, point, thread);
+
+	linear.SearchLinearly();
+	thread->Stats()[Accel_Queries_Verified]++;
+	if(found == linear.found)
+		return;
+
+	char text[256];
+
+	snprintf(text, sizeof(text), "point <%.17g, %.17g, %.17g> (%a %a %a)", point[X], point[Y], point[Z], point[X], point[Y], point[Z]);
+	ReportDifference(thread, text, str(format("%d objects around it") % found.size()), str(format("%d objects") % linear.found.size()));
+}
+
+void Accelerator::ReportDifference(TraceThreadData *thread, const std::string& query, const std::string& ours, const std::string& linear) const
+{
+	thread->Stats()[Accel_Queries_Different]++;
 	{
 		boost::mutex::scoped_lock lock(differenceMutex);
 
@@ -396,13 +474,7 @@ void Accelerator::ReportDifference(const AccelQuery& query, DBL limit, const std
 			return;
 	}
 
-	const VECTOR& o = query.ray.Origin;
-	const VECTOR& d = query.ray.Direction;
-
-	Messages(*sceneData).PossibleError("ray from <%.17g, %.17g, %.17g> along <%.17g, %.17g, %.17g> up to %.17g (%a %a %a, %a %a %a, %a): "
-	                                   "the accelerator finds %s, the linear search %s.",
-	                                   o[X], o[Y], o[Z], d[X], d[Y], d[Z], limit, o[X], o[Y], o[Z], d[X], d[Y], d[Z], limit,
-	                                   ours.c_str(), linear.c_str());
+	Messages(*sceneData).PossibleError("%s: the accelerator finds %s, the linear search %s.", query.c_str(), ours.c_str(), linear.c_str());
 }
 
 bool Accelerator::DifferenceWasFound()

@@ -53,6 +53,9 @@ class Accelerator
 		bool FindIntersection(Trace& trace, TraceThreadData *thread, Intersection& bestisect, const Ray& ray,
 		                      const RayObjectCondition& precondition, const RayObjectCondition& postcondition) const;
 
+		/// Appends the interiors of all objects around a point, as a linear search would.
+		void FindContainingInteriors(const VECTOR point, TraceThreadData *thread, RayInteriorVector& interiors) const;
+
 		/// Describes the structure for the parser statistics.
 		void GetStatistics(POVMS_Object& parserStats) const;
 
@@ -81,7 +84,8 @@ class Accelerator
 
 		bool Find(Trace& trace, AccelQuery& query) const;
 		void Verify(Trace& trace, const AccelQuery& query, DBL limit, bool found, uint32_t index) const;
-		void ReportDifference(const AccelQuery& query, DBL limit, const std::string& ours, const std::string& linear) const;
+		void VerifyInteriors(const VECTOR point, TraceThreadData *thread, const vector<ObjectPtr>& found) const;
+		void ReportDifference(TraceThreadData *thread, const std::string& query, const std::string& ours, const std::string& linear) const;
 		std::string Describe(bool found, uint32_t index, const Intersection& isect) const;
 
 		/// not available
