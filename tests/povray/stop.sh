@@ -29,7 +29,7 @@ stop_build() {
 need_binaries
 mkdir -p "$build/tests/stop"
 cd "$build/tests/stop"
-for count in 100000 200000 400000 800000; do
+for count in 400000 1600000 3200000; do
     if stop_build $count; then
         if [ "$code" -ne 2 ] || grep -qa 'Build time' stop.log; then
             die "exit code $code, not 2, or the build went on: see $PWD/stop.log"
