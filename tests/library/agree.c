@@ -125,7 +125,7 @@ static void agree(const struct scene_maker *maker, const struct ray_family *fami
         if (list[i].standard)
             agree_one(&j, &list[i], 0, 1);
         else if (!maker->variants || (i + seed) % SHARE == 0)
-            agree_one(&j, &list[i], count > SHARE ? i % SHARE : 0, count > SHARE ? SHARE : 1);
+            agree_one(&j, &list[i], count < SHARE ? 0 : i % SHARE, count < SHARE ? 1 : SHARE);
     }
     finish(&j);
     free(list);

@@ -14,7 +14,8 @@
     }
 #define COPIES(name, count)                                                                        \
     {                                                                                              \
-        "G8", name, "one triangle, " #count " times", make_coincident, count, 40, 0                \
+        "G8", name, "one triangle, " #count " times", make_coincident, count,                      \
+            (count) > 1000 ? 8 : 40, 0                                                             \
     }
 
 const struct scene_maker scene_makers[] = {
