@@ -15,7 +15,7 @@ usage() {
 usage: scenes/demo.sh [-a CONFIG]... [--runs N] [--size WxH] [SCENE]...
   SCENE        clustered, cubes, teapots (these three by default), museum, dragon
   -a CONFIG    accelerator for build/povray-accel, may be repeated (default: hoo)
-  --runs N     timed runs of each, stock and ours in turn (2 to 99, default: 3)
+  --runs N     timed runs of each, stock and ours in turn (2 to 99, default: 2)
   --size WxH   size of the pictures (default: 640x360)
 The first run installs packages (apt; sudo where not root) and builds POV-Ray, which takes about ten
 minutes; later runs take less than a minute. Pictures and logs go to build/demo/.
@@ -28,7 +28,7 @@ bad_usage() {
     exit 2
 }
 
-configs=() scenes=() runs=3 width=640 height=360
+configs=() scenes=() runs=2 width=640 height=360
 
 parse_arguments() {
     while [ $# -gt 0 ]; do
@@ -77,7 +77,9 @@ rays() { awk '/^Rays:/ { n += $2 } /^Shadow Ray Tests:/ { n += $4 } END { print 
 verified() { awk '/^Accelerator verified:/ { print $3 }' "$1"; }
 differences() { awk '/^Accelerator verified:/ { print $5 }' "$1"; }
 
-median() { sort -n | awk '{ v[NR] = $1 } END { print v[int((NR + 1) / 2)] }'; }
+median() {
+    sort -n | awk '{ v[NR] = $1 } END { print (v[int((NR + 1) / 2)] + v[int(NR / 2) + 1]) / 2 }'
+}
 
 # The pixels of a file without its header, which holds the date.
 pixels() { tail -c $((width * height * 6)) "$1"; }
