@@ -80,12 +80,12 @@ static bool order_ids(struct parts *p, struct clustering *c)
     if (!array_extend(&p->build->a->memory, &c->order, bounded->count))
         return build_no_memory(p->build);
     for (size_t i = 0; i < p->units.count; i++) {
-        const struct unit *u = &p->units.at[i];
-        const struct cluster *root = &p->part.at[parts_root(p, u->home)];
-        struct cluster *cluster = &c->clusters.at[root->count];
-        const uint32_t count = parts_unit_count(p, i);
-        memcpy(c->order.at + cluster->first, bounded->at + u->first, count * sizeof(uint32_t));
-        cluster->first += count;
+        struct unit *u = &p->units.at[i];
+        u->home = p->part.at[parts_root(p, u->home)].count;
+    }
+    for (size_t i = 0; i < bounded->count; i++) {
+        struct cluster *cluster = &c->clusters.at[p->units.at[p->unit_of.at[i]].home];
+        c->order.at[cluster->first++] = bounded->at[i];
     }
     for (size_t i = 0; i < c->clusters.count; i++)
         c->clusters.at[i].first -= c->clusters.at[i].count;
@@ -99,6 +99,7 @@ bool cluster_scene(struct build *build, struct clustering *c, struct cluster_rul
     struct parts p = {.build = build, .now = 0.5 * (from + to)};
     const bool fine = make_parts(&p, rule) && order_clusters(&p, c) && order_ids(&p, c);
     array_free(m, &p.units);
+    array_free(m, &p.unit_of);
     array_free(m, &p.part);
     c->size_classes = p.sizes.classes;
     build->a->info.size_classes = c->size_classes;

@@ -76,10 +76,12 @@ struct cells {
     size_t room, used;      /* room is 0 or a power of two */
 };
 
-/* Knuth's multiplicative hashing: the upper bits are mixed well. */
+/* Two rounds of multiplicative hashing: neighbouring cells differ in a few bits far apart. */
 static inline uint32_t cell_hash(uint64_t key)
 {
-    return (uint32_t)((key * 0x9e3779b97f4a7c15u) >> 32);
+    key *= 0x9e3779b97f4a7c15u;
+    key = (key ^ key >> 32) * 0xbf58476d1ce4e5b9u;
+    return (uint32_t)(key >> 32);
 }
 
 static inline struct cell_slot *cells_probe(const struct cells *c, uint64_t key)

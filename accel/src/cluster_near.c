@@ -2,8 +2,9 @@
  *
  * Step 1b of clustering: primitives of similar size that are near become parts.
  *
- * - Meshes list most triangles next to a neighbour. Primitives that follow each other and touch are
- *   first made one unit, up to a few cells in size; only units go through the grids.
+ * - Primitives that touch and have their middles in one cell, a few times as large as they are, are
+ *   first made one unit, by looking at the units opened last in that cell; a cell that is displaced
+ *   from the table of cells begins anew. Only units go through the grids.
  * - Units that touch, or are within the given gap, are connected by hash grids and union-find
  *   (touching.h): one grid for each two octaves of size in a class; each unit is entered into its
  *   own and compared with the next coarser one. So sizes may differ along a chain of neighbours,
@@ -17,9 +18,11 @@
 #include "cluster_touching.h"
 
 enum {
+    PER_OPEN_UNIT = 8,    /* primitives for each place in the table of cells */
+    LOOKED_AT = 4,        /* open units of a cell */
     LOOSE_MIN = 4096,     /* units below which a sample is not worth taking */
     SAMPLE_SHARE = 16,    /* one cell of so many goes into the sample */
-    SAMPLE_CELL = 512,    /* units in a cell of the sample's grid, if they were spread evenly */
+    SAMPLE_CELL = 64,     /* units in a cell of the sample's grid, if they were spread evenly */
     LOOSE_CELL = 16,      /* as many in a cell of the grid for loose primitives */
     LARGEST_COMPONENT = 8 /* mean primitives of a component in a sample that is loose */
 };
@@ -27,6 +30,7 @@ enum {
 struct connector {
     struct parts *parts;
     double connectivity; /* as in cluster_rule; 0 for auto */
+    bool sample;         /* only units in the sample's cells */
     struct touching touching;
     ARRAY_OF(uint32_t) order;        /* units by grid, coarse first */
     size_t begin[CELLS_OCTAVES + 1]; /* of each grid in it */
@@ -49,13 +53,6 @@ static uint32_t grid_for(uint32_t top, uint32_t octave)
     return top >= SIZES_PER_GRID && octave >= top - SIZES_PER_GRID ? top - SIZES_PER_GRID : 0;
 }
 
-/* The first octave of a unit's class, from its first primitive. */
-static uint32_t unit_octave(const struct parts *p, const struct unit *u)
-{
-    const struct primitives *prims = &p->build->a->prims;
-    return sizes_octave(&p->sizes, &prims->box[prims->bounded.at[u->first]]);
-}
-
 /* Can the box join the unit without making it too large for the next coarser grid? */
 static bool belongs(const struct parts *p, const struct unit *u, uint32_t grid,
                     const accel_box *box)
@@ -67,29 +64,87 @@ static bool belongs(const struct parts *p, const struct unit *u, uint32_t grid,
     return sizes_octave(&p->sizes, &both) + SIZES_PER_GRID >= grid;
 }
 
-static bool make_units(struct parts *p)
+/* The cell with the middle of a box. */
+static uint64_t middle_key(const struct parts *p, uint32_t class, uint32_t octave,
+                           const accel_box *box)
 {
-    const struct primitives *prims = &p->build->a->prims;
-    const struct sizes *s = &p->sizes;
-    uint32_t open_grid = 0, open_class = ACCEL_NONE;
-    for (size_t i = 0; i < prims->bounded.count; i++) {
-        const accel_box *box = &prims->box[prims->bounded.at[i]];
-        const uint32_t octave = sizes_octave(s, box), class = s->class_of[octave];
-        const uint32_t grid = grid_for(s->top_of[octave], octave);
-        struct unit *open = p->units.count > 0 ? &p->units.at[p->units.count - 1] : NULL;
-        if (class == open_class && grid == open_grid && belongs(p, open, grid, box)) {
-            box_add(&open->box, box);
-            continue;
-        }
+    const accel_box unit = frame_box(&p->sizes.frame, box);
+    const double cells = 0.5 * (double)(1u << octave);
+    uint32_t c[3];
+    for (int k = 0; k < 3; k++)
+        c[k] = (uint32_t)(cells * (unit.lo[k] + unit.hi[k]));
+    return cell_key(class, octave, c[0], c[1], c[2]);
+}
+
+/* A cell and the unit opened last in it. */
+struct open_cell {
+    uint64_t key;
+    uint32_t unit; /* ACCEL_NONE: none yet */
+};
+
+/* A unit of the cell that the box belongs to, or ACCEL_NONE. */
+static uint32_t find_unit(const struct parts *p, uint32_t unit, uint32_t grid, const accel_box *box)
+{
+    for (int i = 0; unit != ACCEL_NONE && i < LOOKED_AT; i++) {
+        if (belongs(p, &p->units.at[unit], grid, box))
+            return unit;
+        unit = p->units.at[unit].next;
+    }
+    return ACCEL_NONE;
+}
+
+/* Puts a primitive into a unit, perhaps a new one, which goes into *unit. */
+static bool put(struct parts *p, struct open_cell *cell, uint32_t octave, uint32_t grid,
+                const accel_box *box, uint32_t *unit)
+{
+    *unit = find_unit(p, cell->unit, grid, box);
+    if (*unit == ACCEL_NONE) {
         if (!array_extend(memory_of(p), &p->units, 1))
             return build_no_memory(p->build);
-        p->units.at[p->units.count - 1] = (struct unit){*box, (uint32_t)i, ACCEL_NONE};
-        open_class = class;
-        open_grid = grid;
-        if (!parts_tick(p, p->units.count))
+        *unit = (uint32_t)p->units.count - 1;
+        p->units.at[*unit] = (struct unit){*box, 0, octave, cell->unit, ACCEL_NONE};
+        cell->unit = *unit;
+    }
+    box_add(&p->units.at[*unit].box, box);
+    p->units.at[*unit].count++;
+    return true;
+}
+
+/* `open` has room for a power of two. */
+static bool fill_units(struct parts *p, struct open_cell *open, size_t room)
+{
+    const struct primitives *prims = &p->build->a->prims;
+    for (size_t i = 0; i < prims->bounded.count; i++) {
+        const accel_box *box = &prims->box[prims->bounded.at[i]];
+        const uint32_t octave = sizes_octave(&p->sizes, box);
+        const uint32_t grid = grid_for(p->sizes.top_of[octave], octave);
+        const uint32_t coarse = grid > SIZES_PER_GRID ? grid - SIZES_PER_GRID : 0;
+        const uint64_t key = middle_key(p, p->sizes.class_of[octave], coarse, box);
+        struct open_cell *cell = &open[cell_hash(key) & (room - 1)];
+        if (cell->key != key)
+            *cell = (struct open_cell){key, ACCEL_NONE};
+        if (!put(p, cell, octave, grid, box, &p->unit_of.at[i]) || !parts_tick(p, i))
             return false;
     }
     return true;
+}
+
+static bool make_units(struct parts *p)
+{
+    const size_t count = p->build->a->prims.bounded.count;
+    size_t room = 64;
+    while (room < count / PER_OPEN_UNIT)
+        room *= 2;
+    struct open_cell *open = memory_resize(memory_of(p), NULL, 0, room * sizeof *open);
+    if (!open || !array_extend(memory_of(p), &p->unit_of, count)) {
+        if (open)
+            memory_resize(memory_of(p), open, room * sizeof *open, 0);
+        return build_no_memory(p->build);
+    }
+    memset(open, 0xff, room * sizeof *open);
+    const bool fine = fill_units(p, open, room);
+    memory_resize(memory_of(p), open, room * sizeof *open, 0);
+    return fine;
 }
 
 /* ---------------------------------------------------------- units that touch ---- */
@@ -97,7 +152,23 @@ static bool make_units(struct parts *p)
 /* The grid of a unit. */
 static uint32_t unit_grid(const struct parts *p, const struct unit *u)
 {
-    return grid_for(p->sizes.top_of[unit_octave(p, u)], sizes_octave(&p->sizes, &u->box));
+    return grid_for(p->sizes.top_of[u->octave], sizes_octave(&p->sizes, &u->box));
+}
+
+/* The grid that would hold `per_cell` units in a cell if they filled the scene evenly. */
+static uint32_t even_octave(const struct parts *p, double per_cell)
+{
+    const double octave = log2((double)p->units.count / per_cell) / 3.0;
+    return octave < 0.0 ? 0 : octave < CELLS_OCTAVES ? (uint32_t)octave : CELLS_OCTAVES - 1;
+}
+
+/* Is the unit among those to connect? */
+static bool takes_part(const struct connector *k, const struct unit *u)
+{
+    if (!k->sample)
+        return true;
+    const uint64_t key = middle_key(k->parts, 0, even_octave(k->parts, SAMPLE_CELL), &u->box);
+    return cell_hash(key) % SAMPLE_SHARE == 0;
 }
 
 /* Counting sort of the units by grid. */
@@ -105,18 +176,20 @@ static bool sort_units(struct connector *k)
 {
     const struct parts *p = k->parts;
     size_t next[CELLS_OCTAVES] = {0}, sum = 0;
-    if (!array_extend(memory_of(p), &k->order, p->units.count))
-        return build_no_memory(p->build);
     for (size_t i = 0; i < p->units.count; i++)
-        next[unit_grid(p, &p->units.at[i])]++;
+        if (takes_part(k, &p->units.at[i]))
+            next[unit_grid(p, &p->units.at[i])]++;
     for (uint32_t g = 0; g < CELLS_OCTAVES; g++) {
         const size_t here = next[g];
         k->begin[g] = next[g] = sum;
         sum += here;
     }
     k->begin[CELLS_OCTAVES] = sum;
+    if (!array_extend(memory_of(p), &k->order, sum))
+        return build_no_memory(p->build);
     for (size_t i = 0; i < p->units.count; i++)
-        k->order.at[next[unit_grid(p, &p->units.at[i])]++] = (uint32_t)i;
+        if (takes_part(k, &p->units.at[i]))
+            k->order.at[next[unit_grid(p, &p->units.at[i])]++] = (uint32_t)i;
     return true;
 }
 
@@ -134,13 +207,12 @@ static bool connect_unit(struct connector *k, struct unit *u, uint32_t grid)
 {
     const struct parts *p = k->parts;
     const accel_box box = frame_box(&p->sizes.frame, &u->box);
-    const uint32_t octave = unit_octave(p, u);
-    const struct touch_rule own = rule_for(k, octave, grid);
+    const struct touch_rule own = rule_for(k, u->octave, grid);
     u->home = touching_enter(memory_of(p), &k->touching, &box, own);
     if (u->home == ACCEL_NONE)
         return build_no_memory(p->build);
     if (grid >= SIZES_PER_GRID && k->begin[grid - SIZES_PER_GRID] != k->begin[grid - 1]) {
-        const struct touch_rule next = rule_for(k, octave, grid - SIZES_PER_GRID);
+        const struct touch_rule next = rule_for(k, u->octave, grid - SIZES_PER_GRID);
         if (next.octave != own.octave)
             touching_join(&k->touching, &box, next, u->home);
     }
@@ -162,7 +234,7 @@ static bool add_unit(struct parts *p, size_t unit, uint32_t part)
     struct unit *u = &p->units.at[unit];
     u->home = part;
     box_add(&p->part.at[part].box, &u->box);
-    p->part.at[part].count += parts_unit_count(p, unit);
+    p->part.at[part].count += u->count;
     return parts_tick(p, unit);
 }
 
@@ -177,7 +249,7 @@ static bool number_parts(struct connector *k)
     for (size_t i = 0; i < p->units.count; i++) {
         const struct unit *u = &p->units.at[i];
         uint32_t *part = &k->number[touching_root(&k->touching, u->home)];
-        if (*part == ACCEL_NONE && !parts_new(p, p->sizes.class_of[unit_octave(p, u)], part))
+        if (*part == ACCEL_NONE && !parts_new(p, p->sizes.class_of[u->octave], part))
             return false;
         if (!add_unit(p, i, *part))
             return false;
@@ -196,50 +268,15 @@ static void release(struct connector *k)
 
 /* ------------------------------------------------------------ loose primitives ---- */
 
-/* The grid that would hold `per_cell` units in a cell if they filled the scene evenly. */
-static uint32_t even_octave(const struct parts *p, double per_cell)
-{
-    const double octave = log2((double)p->units.count / per_cell) / 3.0;
-    return octave < 0.0 ? 0 : octave < CELLS_OCTAVES ? (uint32_t)octave : CELLS_OCTAVES - 1;
-}
-
-/* The cell with the middle of a box. */
-static uint64_t middle_key(const struct parts *p, uint32_t class, uint32_t octave,
-                           const accel_box *box)
-{
-    const accel_box unit = frame_box(&p->sizes.frame, box);
-    const double cells = 0.5 * (double)(1u << octave);
-    uint32_t c[3];
-    for (int k = 0; k < 3; k++)
-        c[k] = (uint32_t)(cells * (unit.lo[k] + unit.hi[k]));
-    return cell_key(class, octave, c[0], c[1], c[2]);
-}
-
-/* Connects the sample's units; counts them and the components. */
-static bool connect_sample(struct connector *k, size_t *units, size_t *components)
-{
-    struct parts *p = k->parts;
-    const uint32_t octave = even_octave(p, SAMPLE_CELL);
-    for (size_t i = 0; i < p->units.count; i++) {
-        struct unit *u = &p->units.at[i];
-        if (cell_hash(middle_key(p, 0, octave, &u->box)) % SAMPLE_SHARE != 0)
-            continue;
-        if (!connect_unit(k, u, unit_grid(p, u)) || !parts_tick(p, i))
-            return false;
-        *units += 1;
-    }
-    for (size_t g = 0; g < k->touching.groups.count; g++)
-        *components += touching_root(&k->touching, (uint32_t)g) == g;
-    return true;
-}
-
 /* Are the units mostly loose? */
 static bool sample(struct parts *p, bool *loose)
 {
-    struct connector k = {.parts = p};
-    size_t units = 0, components = 0;
-    const bool fine = connect_sample(&k, &units, &components);
-    *loose = components * LARGEST_COMPONENT > units;
+    struct connector k = {.parts = p, .sample = true};
+    size_t components = 0;
+    const bool fine = sort_units(&k) && connect_units(&k);
+    for (size_t g = 0; g < k.touching.groups.count; g++)
+        components += touching_root(&k.touching, (uint32_t)g) == g;
+    *loose = components * LARGEST_COMPONENT > k.order.count;
     release(&k);
     return fine;
 }
@@ -250,7 +287,7 @@ static bool bin_units(struct parts *p, struct cells *cells)
     const uint32_t octave = even_octave(p, LOOSE_CELL);
     for (size_t i = 0; i < p->units.count; i++) {
         const struct unit *u = &p->units.at[i];
-        const uint32_t class = p->sizes.class_of[unit_octave(p, u)];
+        const uint32_t class = p->sizes.class_of[u->octave];
         struct cell_slot *slot =
             cells_at(memory_of(p), cells, middle_key(p, class, octave, &u->box));
         if (!slot)

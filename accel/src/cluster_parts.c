@@ -42,10 +42,3 @@ bool parts_tick(const struct parts *p, size_t i)
 {
     return i % 4096 != 0 || build_tick(p->build, p->now);
 }
-
-uint32_t parts_unit_count(const struct parts *p, size_t unit)
-{
-    const size_t next =
-        unit + 1 < p->units.count ? p->units.at[unit + 1].first : p->build->a->prims.bounded.count;
-    return (uint32_t)next - p->units.at[unit].first;
-}

@@ -9,18 +9,20 @@
 #include "cluster.h"
 #include "cluster_sizes.h"
 
-/* Primitives that follow each other in order of id, which touch and are handled as one: those from
- * position `first` in the list of bounded ids up to the next unit's. */
+/* Primitives of one size class that touch and lie together: they are handled as one. */
 struct unit {
     accel_box box;
-    uint32_t first;
-    uint32_t home; /* a group, then its part */
+    uint32_t count;  /* primitives */
+    uint32_t octave; /* of its first primitive's size */
+    uint32_t next;   /* opened before it in its cell */
+    uint32_t home;   /* a group, then its part, at last its cluster */
 };
 
 struct parts {
     struct build *build;           /* whose memory and progress it is */
     struct sizes sizes;            /* of the scene */
     ARRAY_OF(struct unit) units;   /* all primitives */
+    ARRAY_OF(uint32_t) unit_of;    /* by position in the list of bounded ids */
     ARRAY_OF(struct cluster) part; /* by component; `first` is its union-find parent */
     uint32_t crumb;                /* parts of fewer primitives are crumbs */
     double now;                    /* progress to report meanwhile */
@@ -40,9 +42,6 @@ double parts_cost(const struct parts *p, const accel_box *box, double count);
 
 /* Reports progress now and then in a loop over i. False if the build is cancelled. */
 bool parts_tick(const struct parts *p, size_t i);
-
-/* How many primitives a unit has. */
-uint32_t parts_unit_count(const struct parts *p, size_t unit);
 
 /* A part of fewer primitives than this is a crumb: an octree would not pay for it. More than the 12
  * triangles of a cube, which the paper's octrees hold in one leaf. Where primitives are loose, all
