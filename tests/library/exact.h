@@ -15,7 +15,7 @@
 #ifndef TESTS_EXACT_H
 #define TESTS_EXACT_H
 
-#include "scene.h"
+#include "case_scene.h"
 
 typedef __float128 quad;
 

@@ -5,8 +5,8 @@
  *
  * Triangles have their own three vertices each, so neighbours share values, not indices.
  */
-#ifndef TESTS_SCENE_H
-#define TESTS_SCENE_H
+#ifndef CASES_CASE_SCENE_H
+#define CASES_CASE_SCENE_H
 
 #include <stdio.h>
 

@@ -5,11 +5,11 @@
  * family that every scene is shot with: random, aimed at vertices and edges, axis-parallel with
  * both zeros, grazing.
  */
-#ifndef TESTS_CATALOGUE_H
-#define TESTS_CATALOGUE_H
+#ifndef CASES_CATALOGUE_H
+#define CASES_CATALOGUE_H
 
 #include "dice.h"
-#include "scene.h"
+#include "case_scene.h"
 
 struct scene_maker {
     const char *test;    /* "G1" */

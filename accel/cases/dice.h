@@ -4,8 +4,8 @@
  * (SplitMix64: Steele, Lea and Flood, OOPSLA 2014), so every compiler, order and thread count draws
  * the same ones.
  */
-#ifndef TESTS_DICE_H
-#define TESTS_DICE_H
+#ifndef CASES_DICE_H
+#define CASES_DICE_H
 
 #include <math.h>
 #include <stdbool.h>

@@ -2,7 +2,7 @@
  *
  * The host objects of the test scenes.
  */
-#include "scene.h"
+#include "case_scene.h"
 
 static double dot(const double a[3], const double b[3])
 {
