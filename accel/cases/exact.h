@@ -12,12 +12,16 @@
  * sum e_i, an error of d_i in each moves t by sum d_i (z_i - t) / sum e_i; the z_i themselves and
  * the last division add at most 10u max |z_i|.
  */
-#ifndef TESTS_EXACT_H
-#define TESTS_EXACT_H
+#ifndef CASES_EXACT_H
+#define CASES_EXACT_H
 
 #include "case_scene.h"
 
+#if defined(__SIZEOF_FLOAT128__)
 typedef __float128 quad;
+#else
+typedef long double quad; /* of 106 bits or more, or the library does not compile either */
+#endif
 
 enum verdict { NO_HIT, HIT, UNDECIDED };
 
