@@ -3,12 +3,23 @@
  * A pinhole camera whose rays another program can make again, bit for bit.
  *
  * With eye E, point A, upward vector (0,1,0), full horizontal field of view F in degrees and an
- * image of W x H pixels, in double and in this order: w = (A - E) / |A - E| r = (-w.z, 0, w.x) /
- * |...|                           that is w x (0,1,0) u = (r.y w.z - r.z w.y, r.z w.x - r.x w.z,
- * r.x w.y - r.y w.x)           that is r x w h = tan(F * pi / 360) and for column i from the left
- * and row j from the top, both counted from 0: x = (2 (i + 0.5) / W - 1) h        y = (1 - 2 (j +
- * 0.5) / H) (h H / W) origin = E        direction = (w + x r) + y u        which is not normalised
+ * image of W x H pixels, in double and in this order:
+ *
+ *     w = (A - E) / |A - E|
+ *     r = (-w.z, 0, w.x) / |...|              which is w x (0,1,0)
+ *     u = (r.y w.z - r.z w.y, r.z w.x - r.x w.z, r.x w.y - r.y w.x)
+ *                                             which is r x w
+ *     h = tan(F * pi / 360)
+ *
+ * and for column i from the left and row j from the top, both counted from 0:
+ *
+ *     x = (2 (i + 0.5) / W - 1) h
+ *     y = (1 - 2 (j + 0.5) / H) (h H / W)
+ *     origin = E
+ *     direction = (w + x r) + y u             which is not normalised
+ *
  * Where A is straight above or below E, (0,1,0) is replaced by (0,0,1): r = (w.y, -w.x, 0) / |...|.
+ *
  * Coordinates are right-handed: for POV-Ray take the same numbers; its image is not mirrored, as r
  * is computed and not left to the renderer.
  */
