@@ -371,9 +371,9 @@ static void default_configs(request *r)
     }
 }
 
-/* One argument. False: it was bad, and that has been said. */
-static bool take(request *r, const accel_arguments *a, int flag)
+static bool take(accel_arguments *a, int flag, void *user)
 {
+    request *r = user;
     switch (flag) {
     case FLAG_CONFIG:
         return accel_configs_add(&r->configs, a->value, r->command);
@@ -410,17 +410,8 @@ static int run(const accel_command *command, int argc, char **argv)
                  .count = 100000,
                  .repeats = 5,
                  .sample = 200};
-    for (;;) {
-        const int flag = accel_next_argument(&arguments);
-        if (flag == ACCEL_ARGUMENT_STOP) {
-            return arguments.exit_code;
-        }
-        if (flag == ACCEL_ARGUMENT_END) {
-            break;
-        }
-        if (!take(&r, &arguments, flag)) {
-            return ACCEL_EXIT_BAD;
-        }
+    if (!accel_take_arguments(&arguments, take, &r)) {
+        return arguments.exit_code;
     }
     if (r.scene_count == 0) {
         return accel_complain(command, "no SCENE is given; usage: accel %s %s", command->name,

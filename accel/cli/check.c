@@ -213,8 +213,9 @@ static int run_request(const accel_command *command, request *request, bool quie
     return code;
 }
 
-static bool take_argument(accel_arguments *arguments, int found, request *request)
+static bool take(accel_arguments *arguments, int found, void *user)
 {
+    request *request = user;
     switch (found) {
     case FLAG_CONFIG:
         return accel_configs_add(&request->configs, arguments->value, arguments->command);
@@ -238,18 +239,10 @@ static int run(const accel_command *command, int argc, char **argv)
 {
     accel_arguments arguments = accel_arguments_start(command, argc, argv);
     request request = {.rays = DEFAULT_RAYS, .seed = 1};
-    for (;;) {
-        const int found = accel_next_argument(&arguments);
-        if (found == ACCEL_ARGUMENT_STOP) {
-            return arguments.exit_code;
-        }
-        if (found == ACCEL_ARGUMENT_END) {
-            return run_request(command, &request, arguments.quiet);
-        }
-        if (!take_argument(&arguments, found, &request)) {
-            return ACCEL_EXIT_BAD;
-        }
+    if (!accel_take_arguments(&arguments, take, &request)) {
+        return arguments.exit_code;
     }
+    return run_request(command, &request, arguments.quiet);
 }
 
 const accel_command accel_command_check = {

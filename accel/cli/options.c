@@ -184,6 +184,21 @@ int accel_next_argument(accel_arguments *a)
     return word[1] == '-' ? take_long(a, word + 2) : take_short(a, word + 1);
 }
 
+bool accel_take_arguments(accel_arguments *a, accel_take *take, void *request)
+{
+    int found;
+    while ((found = accel_next_argument(a)) != ACCEL_ARGUMENT_END) {
+        if (found == ACCEL_ARGUMENT_STOP) {
+            return false;
+        }
+        if (!take(a, found, request)) {
+            a->exit_code = ACCEL_EXIT_BAD;
+            return false;
+        }
+    }
+    return true;
+}
+
 bool accel_whole_argument(const accel_arguments *a, int flag, uint64_t min, uint64_t max,
                           uint64_t *out)
 {

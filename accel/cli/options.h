@@ -57,6 +57,13 @@ accel_arguments accel_arguments_start(const accel_command *command, int argc, ch
  * ACCEL_ARGUMENT_STOP: help or an error has been printed; return a->exit_code. */
 int accel_next_argument(accel_arguments *a);
 
+/* Takes one argument: `found` is what accel_next_argument returned. False: it was bad, and that has
+ * been said. */
+typedef bool accel_take(accel_arguments *a, int found, void *request);
+
+/* Hands every argument to `take`. False: the command ends here, with a->exit_code. */
+bool accel_take_arguments(accel_arguments *a, accel_take *take, void *request);
+
 /* Prints "accel NAME: TEXT" to stderr and returns ACCEL_EXIT_BAD. */
 int accel_complain(const accel_command *command, const char *format, ...)
     __attribute__((format(printf, 2, 3)));

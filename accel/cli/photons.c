@@ -112,8 +112,9 @@ static bool read_view_flag(const accel_arguments *a, int flag, accel_photon_requ
     }
 }
 
-static bool read_flag(const accel_arguments *a, int flag, accel_photon_request *r)
+static bool take(accel_arguments *a, int flag, void *request)
 {
+    accel_photon_request *r = request;
     uint64_t whole;
     switch (flag) {
     case FLAG_CONFIG:
@@ -171,14 +172,8 @@ static int run(const accel_command *command, int argc, char **argv)
                               .count = 100};
     r.run.threads = accel_crew_size();
     accel_arguments arguments = accel_arguments_start(command, argc, argv);
-    int flag;
-    while ((flag = accel_next_argument(&arguments)) != ACCEL_ARGUMENT_END) {
-        if (flag == ACCEL_ARGUMENT_STOP) {
-            return arguments.exit_code;
-        }
-        if (!read_flag(&arguments, flag, &r)) {
-            return ACCEL_EXIT_BAD;
-        }
+    if (!accel_take_arguments(&arguments, take, &r)) {
+        return arguments.exit_code;
     }
     r.quiet = arguments.quiet;
     return check_request(command, &r);

@@ -221,8 +221,9 @@ static int run_into_file(const accel_command *command, accel_table_request *r)
     return accel_output_commit(&output, &error) ? code : accel_complain(command, "%s", error.text);
 }
 
-static bool read_flag(const accel_arguments *a, int flag, accel_table_request *r)
+static bool take(accel_arguments *a, int flag, void *request)
 {
+    accel_table_request *r = request;
     uint64_t table;
     switch (flag) {
     case FLAG_TABLE:
@@ -253,14 +254,8 @@ static int run(const accel_command *command, int argc, char **argv)
 {
     accel_table_request r = {.threads = 1};
     accel_arguments arguments = accel_arguments_start(command, argc, argv);
-    int flag;
-    while ((flag = accel_next_argument(&arguments)) != ACCEL_ARGUMENT_END) {
-        if (flag == ACCEL_ARGUMENT_STOP) {
-            return arguments.exit_code;
-        }
-        if (!read_flag(&arguments, flag, &r)) {
-            return ACCEL_EXIT_BAD;
-        }
+    if (!accel_take_arguments(&arguments, take, &r)) {
+        return arguments.exit_code;
     }
     r.quiet = arguments.quiet;
     return run_into_file(command, &r);

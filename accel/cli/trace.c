@@ -122,8 +122,9 @@ static int check_request(const accel_command *command, const request *request, b
     return load_and_trace(command, request, quiet);
 }
 
-static bool take_argument(accel_arguments *arguments, int found, request *request)
+static bool take(accel_arguments *arguments, int found, void *user)
 {
+    request *request = user;
     const char **const texts[] = {[FLAG_CONFIG] = &request->config,
                                   [FLAG_OUTPUT] = &request->output,
                                   [FLAG_SIZE] = &request->size,
@@ -143,18 +144,10 @@ static int run(const accel_command *command, int argc, char **argv)
 {
     accel_arguments arguments = accel_arguments_start(command, argc, argv);
     request request = {.config = ACCEL_DEFAULT_CONFIG};
-    for (;;) {
-        const int found = accel_next_argument(&arguments);
-        if (found == ACCEL_ARGUMENT_STOP) {
-            return arguments.exit_code;
-        }
-        if (found == ACCEL_ARGUMENT_END) {
-            return check_request(command, &request, arguments.quiet);
-        }
-        if (!take_argument(&arguments, found, &request)) {
-            return ACCEL_EXIT_BAD;
-        }
+    if (!accel_take_arguments(&arguments, take, &request)) {
+        return arguments.exit_code;
     }
+    return check_request(command, &request, arguments.quiet);
 }
 
 const accel_command accel_command_trace = {

@@ -386,9 +386,7 @@ static bool grow(struct grower *g, struct task *t, struct subtree *out)
 static bool prepare(struct grower *g, struct task *root)
 {
     const struct primitives *p = &g->build->a->prims;
-    accel_box all = box_empty();
-    for (size_t i = 0; i < p->bounded.count; i++)
-        box_add(&all, &p->box[p->bounded.at[i]]);
+    const accel_box all = primitives_bounds(p);
     g->boxes = p->box;
     g->scale = frame_of(&all).scale;
     g->bsp->box = all;

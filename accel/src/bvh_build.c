@@ -17,6 +17,7 @@
  * the middle always does. So a range at BOXTREE_MAX_DEPTH has one item and is a leaf.
  */
 #include "bvh.h"
+#include "frame.h"
 
 #include <string.h>
 
@@ -395,30 +396,18 @@ static bool grow(struct grower *g, struct item *at, uint32_t count, uint32_t dep
            grow(g, at + left, count - left, depth + 1, &half[1]) && join(g, &r, node, half, out);
 }
 
-static double scale_of(const accel_box *box)
-{
-    double extent = 0.0;
-    for (int k = 0; k < 3; k++)
-        extent = fmax(extent, box->hi[k] - box->lo[k]);
-    int exponent;
-    frexp(extent, &exponent);
-    return ldexp(1.0, exponent > -1000 ? -exponent : 1000);
-}
-
 /* Copies what the builder needs of every bounded primitive. */
 static bool gather(struct grower *g)
 {
     const struct primitives *p = &g->build->a->prims;
     struct memory *m = &g->build->a->memory;
-    accel_box box = box_empty();
+    const accel_box box = primitives_bounds(p);
     g->items = memory_resize(m, NULL, 0, p->bounded.count * sizeof *g->items);
     if (!g->items || !array_extend(m, &g->bvh->refs, p->bounded.count))
         return build_no_memory(g->build);
-    for (size_t i = 0; i < p->bounded.count; i++) {
+    for (size_t i = 0; i < p->bounded.count; i++)
         g->items[i] = (struct item){p->box[p->bounded.at[i]], p->bounded.at[i]};
-        box_add(&box, &g->items[i].box);
-    }
-    g->scale = scale_of(&box);
+    g->scale = frame_of(&box).scale;
     return true;
 }
 

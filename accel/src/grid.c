@@ -23,14 +23,6 @@ static const accel_option options[] = {
                  .standard = NAN},
 };
 
-static accel_box scene_box(const struct primitives *p)
-{
-    accel_box b = box_empty();
-    for (size_t i = 0; i < p->bounded.count; i++)
-        box_add(&b, &p->box[p->bounded.at[i]]);
-    return b;
-}
-
 static void describe(struct build *build, const struct grid_kind *k, const struct grid_plan *plan)
 {
     accel_info *info = &build->a->info;
@@ -55,7 +47,7 @@ static bool build(struct build *build)
     build_phase(build, "density");
     if (!array_extend(&k->base.memory, &k->pool.grids, 1))
         return build_no_memory(build);
-    k->pool.grids.at[0] = (struct grid){.box = scene_box(p)};
+    k->pool.grids.at[0] = (struct grid){.box = primitives_bounds(p)};
     struct grid_plan plan =
         grid_plan(p, &k->pool, &k->pool.grids.at[0].box, all, k->base.option[DENSITY]);
     k->base.option[DENSITY] = plan.density;

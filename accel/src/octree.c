@@ -26,14 +26,6 @@ static const accel_option options[] = {
     [ROOT] = {.key = "root", .meaning = "shape of the root cell", .words = roots},
 };
 
-static accel_box scene_box(const struct primitives *p)
-{
-    accel_box b = box_empty();
-    for (size_t i = 0; i < p->bounded.count; i++)
-        box_add(&b, &p->box[p->bounded.at[i]]);
-    return b;
-}
-
 /* The cube around a box, with the same centre; it contains the box whatever the rounding. */
 static accel_box cube_around(const accel_box *b)
 {
@@ -53,7 +45,7 @@ static bool build(struct build *build)
 {
     struct octree_kind *o = (struct octree_kind *)build->a;
     const struct primitives *p = &o->base.prims;
-    const accel_box tight = scene_box(p);
+    const accel_box tight = primitives_bounds(p);
     const accel_box root = o->base.option[ROOT] == 0 ? cube_around(&tight) : tight;
     const struct octree_rule rule = {o->base.option[LEAF], o->base.option[DEPTH]};
     build_phase(build, "octree");

@@ -329,6 +329,14 @@ bool primitives_copy(struct build *build, const accel_scene *scene)
     return true;
 }
 
+accel_box primitives_bounds(const struct primitives *p)
+{
+    accel_box bounds = box_empty();
+    for (size_t i = 0; i < p->bounded.count; i++)
+        box_add(&bounds, &p->box[p->bounded.at[i]]);
+    return bounds;
+}
+
 static void free_data(struct memory *m, struct geometry *g)
 {
     if (g->data)

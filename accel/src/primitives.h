@@ -53,6 +53,9 @@ bool primitives_copy(struct build *build, const accel_scene *scene);
 bool primitives_move_triangles(struct build *build, const uint32_t *ids, size_t count,
                                double **out);
 
+/* The box around the padded boxes of all that is bounded. */
+accel_box primitives_bounds(const struct primitives *p);
+
 void primitives_free(struct memory *m, struct primitives *p);
 
 static inline const struct geometry *primitives_geometry(const struct primitives *p, uint32_t id)

@@ -103,17 +103,25 @@ static accel_hit hit_from(const struct primitives *p, const struct found *f)
     return (accel_hit){f->t, f->u, f->v, name.geom, name.prim};
 }
 
+/* The first hit, or any one. Returns whether there is one. */
+static bool find_first(struct query *q, const accel *a, const accel_ray *ray, bool any,
+                       struct found *found, accel_query *caller)
+{
+    prepare(q, a, ray, found, 1, caller);
+    prepare_shear(q);
+    q->any = any;
+    walk(q, a);
+    account(q);
+    return q->count > 0;
+}
+
 bool accel_closest(const accel *a, const accel_ray *ray, accel_hit *hit, accel_query *query)
 {
     if (!valid(ray))
         return refuse(query);
     struct query q;
     struct found found;
-    prepare(&q, a, ray, &found, 1, query);
-    prepare_shear(&q);
-    walk(&q, a);
-    account(&q);
-    if (q.count == 0)
+    if (!find_first(&q, a, ray, false, &found, query))
         return false;
     *hit = hit_from(&a->prims, &found);
     return true;
@@ -125,12 +133,7 @@ bool accel_any(const accel *a, const accel_ray *ray, accel_query *query)
         return refuse(query);
     struct query q;
     struct found found;
-    prepare(&q, a, ray, &found, 1, query);
-    prepare_shear(&q);
-    q.any = true;
-    walk(&q, a);
-    account(&q);
-    return q.count > 0;
+    return find_first(&q, a, ray, true, &found, query);
 }
 
 /* Batch after batch until one is not full. False if the visitor said stop. */
