@@ -236,14 +236,14 @@ static void test_hostile(void **state)
     memset(text, 'x', SIZE);
     text[SIZE] = '\0';
     REFUSE(text, "unknown kind");
-    memcpy(text, "octree:", 7);
-    REFUSE(text, "octree");
-    memcpy(text, "octree:leaf=", 12);
-    REFUSE(text, "leaf");
-    memset(text + 12, '9', SIZE - 12);
-    REFUSE(text, "leaf");
-    REFUSE("octree:leaf=1e99999999999999999999", "leaf");
-    REFUSE("octree:leaf=%s%n%d", "leaf", "%s%n%d");
+    memcpy(text, "auto:", 5); /* the only kind with options that is always compiled */
+    REFUSE(text, "auto");
+    memcpy(text, "auto:rays=", 10);
+    REFUSE(text, "rays");
+    memset(text + 10, '9', SIZE - 10);
+    REFUSE(text, "rays");
+    REFUSE("auto:rays=1e99999999999999999999", "rays");
+    REFUSE("auto:rays=%s%n%d", "rays", "%s%n%d");
     REFUSE("%s%n:%n", "%s%n");
     free(text);
 }
