@@ -27,6 +27,7 @@ const struct scene_maker scene_makers[] = {
     SCALED("scale-1e-300", 1e-300),
     SCALED("scale-1e-150", 1e-150),
     SCALED("scale-1e-38", 1e-38),
+    SCALED("scale-1e-12", 1e-12),
     SCALED("scale-1e-9", 1e-9),
     SCALED("scale-1e-4", 1e-4),
     SCALED("scale-1", 1.0),

@@ -109,6 +109,43 @@ struct exact exact_triangle(const accel_ray *ray, const double *vertices)
     return (struct exact){HIT, t, off, t - off, t + off};
 }
 
+/* Neither the squares of what is in this range nor the bounds lose bits at the ends of double's. */
+static bool is_middling(double x)
+{
+    return x == 0 || (fabs(x) > 1e-60 && fabs(x) < 1e60);
+}
+
+bool exact_misses(const accel_ray *ray, const double *vertices)
+{
+    const int kz = longest(ray->dir), kx = (kz + 1) % 3, ky = (kz + 2) % 3;
+    const double sx = ray->dir[kx] / ray->dir[kz], sy = ray->dir[ky] / ray->dir[kz];
+    double x[3], y[3], size = 0;
+    if (!is_middling(ray->dir[kz]) || !is_middling(ray->dir[kx]) || !is_middling(ray->dir[ky]))
+        return false;
+    for (int i = 0; i < 3; i++) {
+        double p[3];
+        for (int k = 0; k < 3; k++) {
+            p[k] = vertices[3 * i + k] - ray->org[k];
+            size = fmax(size, fabs(p[k]));
+            if (!is_middling(p[k]))
+                return false;
+        }
+        x[i] = p[kx] - sx * p[kz];
+        y[i] = p[ky] - sy * p[kz];
+    }
+    bool positive = false, negative = false;
+    const double d = 6 * 0x1p-53 * size;
+    for (int i = 0; i < 3; i++) {
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+        const double a = x[k] * y[j], b = y[k] * x[j];
+        const double sum = fabs(x[j]) + fabs(y[j]) + fabs(x[k]) + fabs(y[k]);
+        const double bound = 2 * (d * sum + 3 * 0x1p-53 * (fabs(a) + fabs(b))) + 1e-300;
+        positive |= a - b > 2.01 * bound;
+        negative |= a - b < -2.01 * bound;
+    }
+    return positive && negative;
+}
+
 /* The library's discriminant r^2 - |f + (b / a) d|^2 is off by at most 16 u |f| (2 |nearest| + 16 u
  * |f|) + 4 u r^2 (each component of the nearest point by 8 u |f|), its product with a by 4 u of it;
  * t by what that moves the root, and by the roundings of c = |f|^2 - r^2 over the root. */

@@ -34,6 +34,12 @@ struct exact {
 
 struct exact exact_triangle(const accel_ray *ray, const double *vertices);
 
+/* A quick way out, in double: true only where exact_triangle says NO_HIT. The double values of the
+ * edge functions are within the bound B above of the exact ones, so where two of them are beyond 2B
+ * with other signs, the exact ones are beyond B. Where that could over- or underflow it says
+ * nothing. */
+bool exact_misses(const accel_ray *ray, const double *vertices);
+
 /* The two crossings, nearer first. Both are decided or none is. */
 void exact_sphere(const accel_ray *ray, const double *sphere, struct exact out[2]);
 

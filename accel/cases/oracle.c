@@ -37,6 +37,8 @@ struct judgement oracle_judge(const struct test_scene *s, const accel_ray *ray)
         const struct part *p = &s->part[g];
         for (uint32_t i = 0; i < p->count; i++) {
             if (p->type == ACCEL_TRIANGLES) {
+                if (exact_misses(ray, p->data + 9 * (size_t)i))
+                    continue;
                 const struct exact e = exact_triangle(ray, p->data + 9 * (size_t)i);
                 enter(&j, ray, &e, g, i);
             } else {

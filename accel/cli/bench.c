@@ -5,6 +5,7 @@
  */
 #include "bench.h"
 #include "commands.h"
+#include "machine.h"
 #include "output.h"
 
 #include <inttypes.h>
@@ -82,28 +83,14 @@ static bool make_ours(accel_contender *c, const char *config, const accel_bench 
 
 /* --------------------------------------------------------------------- output ---- */
 
-static void print_processor(void)
-{
-    char line[256];
-    FILE *file = fopen("/proc/cpuinfo", "r");
-    while (file != NULL && fgets(line, sizeof line, file) != NULL) {
-        if (strncmp(line, "model name", 10) == 0) {
-            printf("%s", strchr(line, ':') + 2);
-            break;
-        }
-    }
-    if (file != NULL) {
-        fclose(file);
-    }
-}
-
 static void print_head(const request *r)
 {
-    print_processor();
-    printf("compiled by " ACCEL_COMPILER ", version " ACCEL_VERSION " at " ACCEL_COMMIT "\n"
+    char processor[256];
+    accel_machine_processor(processor, sizeof processor);
+    printf("%s\n%s\n"
            "ns per ray: processor time of one thread, median of %" PRIu64
            " turns (quartiles), %" PRIu64 " rays of each kind\n",
-           r->repeats, r->count);
+           processor, accel_machine_build(), r->repeats, r->count);
     if (r->peers && accel_bench_no_peers() != NULL) {
         printf("%s\n", accel_bench_no_peers());
     } else if (r->peers) {

@@ -8,18 +8,11 @@
  */
 #include "bench.h"
 #include "judge.h"
+#include "machine.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
-
-static double processor_seconds(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
 
 static bool same(const accel_ray_set *set, size_t i, bool found, const accel_hit *hit)
 {
@@ -112,9 +105,10 @@ bool accel_bench_time(accel_bench *b, accel_progress *progress)
             const accel_ray_set *set = &b->sets[s];
             for (size_t c = 0; set->count > 0 && c < b->count; c++) {
                 accel_contender *contender = &b->at[c];
-                const double start = processor_seconds();
+                const double start = accel_machine_seconds();
                 const size_t found = contender->trace(contender, set);
-                contender->ns[s][turn] = 1e9 * (processor_seconds() - start) / (double)set->count;
+                contender->ns[s][turn] =
+                    1e9 * (accel_machine_seconds() - start) / (double)set->count;
                 if (!contender->peer && found != set->found) {
                     return report(b, contender->name, set, 0);
                 }

@@ -16,5 +16,6 @@ extern const accel_command accel_command_export;
 extern const accel_command accel_command_bench;
 extern const accel_command accel_command_photons;
 extern const accel_command accel_command_tables;
+extern const accel_command accel_command_report;
 
 #endif

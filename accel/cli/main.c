@@ -22,6 +22,7 @@ static const accel_command *const commands[] = {
     &accel_command_bench,
     &accel_command_photons,
     &accel_command_tables,
+    &accel_command_report,
 };
 
 enum { COMMANDS = sizeof commands / sizeof commands[0] };

@@ -1,0 +1,19 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * What figures depend on: processor, compiler, version; and the clock that they are taken by.
+ */
+#ifndef ACCEL_CLI_MACHINE_H
+#define ACCEL_CLI_MACHINE_H
+
+#include <stddef.h>
+
+/* The processor's name as the system gives it, without a line end. */
+void accel_machine_processor(char *text, size_t size);
+
+/* Compiler, its flags, version and commit, in one line. */
+const char *accel_machine_build(void);
+
+/* Seconds of processor time of the calling thread. */
+double accel_machine_seconds(void);
+
+#endif

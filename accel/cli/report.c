@@ -1,0 +1,184 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * accel report: its arguments, the sections in their order, the folder at the end.
+ */
+#include "commands.h"
+#include "report.h"
+#include "words.h"
+
+#include <string.h>
+
+enum { FLAG_OUTPUT, FLAG_QUICK, FLAG_MINUTES, FLAG_ONLY };
+
+static const accel_flag flags[] = {
+    [FLAG_OUTPUT] = {"output", 'o', "DIR", "folder to make; a former report there is replaced"},
+    [FLAG_QUICK] = {"quick", 0, NULL, "fewer rays, photons and sizes: less than two minutes"},
+    [FLAG_MINUTES] = {"minutes", 0, "M",
+                      "about as long, 0..1440 (default: 40); 0: the least counts"},
+    [FLAG_ONLY] = {"only", 0, "PART", "of exact (default: all)"},
+};
+
+/* What --quick gives the sections: the least counts of some take longer than their share, and two
+ * minutes must do on a slower machine too. */
+#define QUICK_MINUTES 1.2
+
+/* The sections in the order of the page, with their shares of the time. */
+static const struct part {
+    const char *name;
+    accel_report_section *run;
+    double share;
+} parts[] = {
+    {"exact", accel_report_exact, 0.2},
+};
+
+enum { PARTS = sizeof parts / sizeof parts[0] };
+
+/* What was asked for. */
+typedef struct request {
+    const char *output;
+    double minutes;
+    const char *only; /* a part, or NULL */
+} request;
+
+static bool run_parts(accel_reporting *r, const request *q)
+{
+    for (size_t i = 0; i < PARTS; i++) {
+        if (q->only != NULL && strcmp(q->only, parts[i].name) != 0) {
+            continue;
+        }
+        r->progress.what = parts[i].name;
+        if (!parts[i].run(r, r->seconds * (q->only != NULL ? 1.0 : parts[i].share))) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool make_report(accel_reporting *r, const request *q)
+{
+    r->page = accel_folder_file(&r->folder, "index.html", "w");
+    if (r->page == NULL) {
+        accel_complain(r->command, "cannot write index.html in %.200s; nothing was written",
+                       r->folder.temporary);
+        return false;
+    }
+    accel_page_open(r);
+    const bool fine = run_parts(r, q);
+    accel_progress_clear(&r->progress);
+    if (!fine) {
+        fclose(r->page);
+        return false;
+    }
+    return accel_page_close(r);
+}
+
+static int run_request(const accel_command *command, const request *q, bool quiet)
+{
+    accel_reporting r = {
+        .command = command, .progress = accel_progress_start(quiet), .seconds = 60.0 * q->minutes};
+    const char *missing = accel_plot_missing();
+    if (missing != NULL) {
+        return accel_complain(command, "%s; nothing was written", missing);
+    }
+    accel_error error;
+    if (!accel_folder_open(&r.folder, q->output, &error)) {
+        return accel_complain(command, "%s", error.text);
+    }
+    if (q->minutes > 0.0) {
+        printf("about %.0f %s; %s/index.html appears at the end\n",
+               q->minutes < 2.0 ? 60.0 * q->minutes : q->minutes,
+               q->minutes < 2.0 ? "seconds" : "minutes", q->output);
+        fflush(stdout);
+    }
+    if (!make_report(&r, q)) {
+        accel_folder_abandon(&r.folder);
+        return ACCEL_EXIT_BAD;
+    }
+    if (!accel_folder_commit(&r.folder, &error)) {
+        return accel_complain(command, "%s", error.text);
+    }
+    printf("%s/index.html: %llu answers of ours judged, %llu wrong; %.0f s\n", q->output,
+           (unsigned long long)r.judged, (unsigned long long)r.wrong,
+           accel_seconds() - r.progress.start);
+    return r.wrong == 0 ? ACCEL_EXIT_FINE : ACCEL_EXIT_DIFFERENT;
+}
+
+/* ---------------------------------------------------------------- arguments ---- */
+
+static bool read_minutes(const accel_arguments *a, request *q)
+{
+    double value;
+    if (accel_read_number(a->value, strlen(a->value), &value) && value >= 0.0 && value <= 1440.0) {
+        q->minutes = value;
+        return true;
+    }
+    accel_complain(a->command, "--minutes is '%.60s'; allowed is a number from 0 to 1440",
+                   a->value);
+    return false;
+}
+
+static bool read_part(const accel_arguments *a, request *q)
+{
+    for (size_t i = 0; i < PARTS; i++) {
+        if (strcmp(a->value, parts[i].name) == 0) {
+            q->only = parts[i].name;
+            return true;
+        }
+    }
+    accel_complain(a->command, "--only is '%.60s'; allowed is exact", a->value);
+    return false;
+}
+
+static bool read_flag(const accel_arguments *a, int flag, request *q)
+{
+    switch (flag) {
+    case FLAG_OUTPUT:
+        q->output = a->value;
+        return true;
+    case FLAG_QUICK:
+        q->minutes = QUICK_MINUTES;
+        return true;
+    case FLAG_MINUTES:
+        return read_minutes(a, q);
+    case FLAG_ONLY:
+        return read_part(a, q);
+    default:
+        accel_complain(a->command, "unexpected '%.60s'", a->value);
+        return false;
+    }
+}
+
+static int run(const accel_command *command, int argc, char **argv)
+{
+    request q = {.minutes = 40.0};
+    accel_arguments arguments = accel_arguments_start(command, argc, argv);
+    int flag;
+    while ((flag = accel_next_argument(&arguments)) != ACCEL_ARGUMENT_END) {
+        if (flag == ACCEL_ARGUMENT_STOP) {
+            return arguments.exit_code;
+        }
+        if (!read_flag(&arguments, flag, &q)) {
+            return ACCEL_EXIT_BAD;
+        }
+    }
+    if (q.output == NULL) {
+        return accel_complain(command, "no -o DIR is given; usage: accel %s %s", command->name,
+                              command->arguments);
+    }
+    return run_request(command, &q, arguments.quiet);
+}
+
+const accel_command accel_command_report = {
+    .name = "report",
+    .arguments = "-o DIR [OPTION]...",
+    .summary = "error against run time: a page with plots, and the figures behind them",
+    .details =
+        "Wrong answers of every kind, and of Embree, against time per ray; stiff and extreme\n"
+        "cases; error of photon illumination against time; what a choice of options costs; work\n"
+        "against the size of a scene. Counts follow from the time: the page says which were\n"
+        "used. Needs gnuplot; compares with POV-Ray where 'povray' is installed. DIR/index.html\n"
+        "appears whole or not at all. Exit code 1 if an answer of ours is wrong.",
+    .flags = flags,
+    .flag_count = sizeof flags / sizeof flags[0],
+    .run = run,
+};

@@ -1,0 +1,321 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * Making rays and having them judged, on all processors.
+ */
+#include "report_exam.h"
+
+#include "crew.h"
+#include "judge.h"
+
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { SEED = 1, PILOT = 24 };
+
+/* ------------------------------------------------------------ scene and rays ---- */
+
+static void make_scene_of(const accel_exam_subject *subject, struct test_scene *s)
+{
+    if (subject->leaks != NULL) {
+        leak_make(s, subject->leaks, SEED);
+    } else {
+        scene_make(s, subject->maker, SEED);
+    }
+}
+
+static void make_rays(accel_exam *e, const accel_exam_subject *subject, size_t count)
+{
+    struct dice d = dice_from(SEED, 2);
+    e->set.count = 0;
+    for (uint64_t i = 0; e->set.count < count && i < 8 * (uint64_t)count; i++) {
+        accel_ray *ray = &e->set.rays[e->set.count];
+        if (subject->leaks != NULL) {
+            e->set.count += leak_ray(subject->leaks, e->scene, &d, i, ray);
+        } else {
+            *ray = subject->family->make(e->scene, e->linear, &d, i);
+            e->set.count++;
+        }
+    }
+}
+
+/* Of what Embree makes its own copy: finite triangles and spheres. */
+static bool suits_peers(const struct test_scene *s)
+{
+    bool any = false;
+    for (uint32_t g = 0; g < s->count; g++) {
+        if (s->part[g].type == ACCEL_OBJECTS) {
+            return false;
+        }
+        any |= s->part[g].count > 0;
+    }
+    return any;
+}
+
+static bool has_objects(const struct test_scene *s)
+{
+    for (uint32_t g = 0; g < s->count; g++) {
+        if (s->part[g].type == ACCEL_OBJECTS) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* ------------------------------------------------------------------ judging ---- */
+
+/* Shared by the threads. */
+typedef struct judging {
+    const struct test_scene *scene;
+    const accel_ray *rays;
+    struct judgement *out;
+    size_t count;
+    atomic_size_t next; /* ray that nobody has taken */
+} judging;
+
+static void judge_some(void *user, unsigned thread)
+{
+    (void)thread;
+    judging *j = user;
+    for (size_t i = atomic_fetch_add(&j->next, 1); i < j->count;
+         i = atomic_fetch_add(&j->next, 1)) {
+        j->out[i] = oracle_judge(j->scene, &j->rays[i]);
+    }
+}
+
+static struct judgement *judge_all(const struct test_scene *scene, const accel_ray *rays,
+                                   size_t count)
+{
+    judging j = {.scene = scene, .rays = rays, .count = count};
+    j.out = malloc((count + 1) * sizeof *j.out);
+    if (j.out != NULL) {
+        accel_crew(accel_crew_size(), judge_some, &j);
+    }
+    return j.out;
+}
+
+static double single(double x)
+{
+    return (double)(float)x;
+}
+
+static accel_ray single_ray(const accel_ray *ray)
+{
+    accel_ray r = *ray;
+    for (int k = 0; k < 3; k++) {
+        r.org[k] = single(r.org[k]);
+        r.dir[k] = single(r.dir[k]);
+    }
+    r.tmin = single(r.tmin);
+    r.tmax = single(r.tmax);
+    return r;
+}
+
+static void round_scene(struct test_scene *s)
+{
+    for (uint32_t g = 0; g < s->count; g++) {
+        struct part *p = &s->part[g];
+        const size_t width = p->type == ACCEL_TRIANGLES ? 9 : 4;
+        for (size_t i = 0; p->type != ACCEL_OBJECTS && i < width * p->count; i++) {
+            p->data[i] = single(p->data[i]);
+        }
+    }
+}
+
+/* What peers are given: the oracle's word on scene and rays in single precision. */
+static bool judge_single(accel_exam *e, const accel_exam_subject *subject)
+{
+    struct test_scene *rounded = malloc(sizeof *rounded);
+    accel_ray *rays = malloc((e->set.count + 1) * sizeof *rays);
+    if (rounded != NULL && rays != NULL) {
+        make_scene_of(subject, rounded);
+        round_scene(rounded);
+        for (size_t i = 0; i < e->set.count; i++) {
+            rays[i] = single_ray(&e->set.rays[i]);
+        }
+        e->single = judge_all(rounded, rays, e->set.count);
+        scene_free(rounded);
+    }
+    free(rounded);
+    free(rays);
+    return e->single != NULL;
+}
+
+static size_t count_decided(const struct judgement *j, size_t count)
+{
+    size_t decided = 0;
+    for (size_t i = 0; i < count; i++) {
+        decided += j[i].verdict != UNDECIDED;
+    }
+    return decided;
+}
+
+static void ask_linear(accel_exam *e)
+{
+    for (size_t i = 0; i < e->set.count; i++) {
+        e->set.hits[i].geom = ACCEL_NONE;
+        e->set.found += accel_closest(e->linear, &e->set.rays[i], &e->set.hits[i], NULL);
+    }
+}
+
+static bool judge_rays(accel_exam *e, const accel_exam_subject *subject)
+{
+    ask_linear(e);
+    e->decided = e->decided_single = e->set.count;
+    if (e->judge != ACCEL_BY_ORACLE) {
+        return true;
+    }
+    e->right = judge_all(e->scene, e->set.rays, e->set.count);
+    if (e->right == NULL || (e->peers && !judge_single(e, subject))) {
+        return false;
+    }
+    e->decided = count_decided(e->right, e->set.count);
+    e->decided_single = e->peers ? count_decided(e->single, e->set.count) : 0;
+    return true;
+}
+
+/* Passes of linear over the rays, by all who judge and time; what the passes of all others take
+ * for each ray, about. */
+#define LINEAR_PASSES  8.0
+#define OTHERS_SECONDS 1.2e-4
+
+/* Rays that about fit into the time, from the time of the first few. */
+static size_t choose_count(const accel_exam *e, double seconds, size_t least, size_t most)
+{
+    double start = accel_seconds();
+    if (e->judge == ACCEL_BY_ORACLE) {
+        free(judge_all(e->scene, e->set.rays, e->set.count));
+    }
+    const double judged = accel_seconds() - start;
+    accel_hit hit;
+    start = accel_seconds();
+    for (size_t i = 0; i < e->set.count; i++) {
+        accel_closest(e->linear, &e->set.rays[i], &hit, NULL);
+    }
+    const double asked = accel_seconds() - start;
+    const double each = (2.0 * judged + LINEAR_PASSES * asked) / (double)(e->set.count + 1);
+    const double fits = seconds / (each + OTHERS_SECONDS);
+    return fits > (double)most ? most : fits < (double)least ? least : (size_t)fits;
+}
+
+bool accel_exam_make(accel_exam *e, accel_exam_subject subject, double seconds, size_t least,
+                     size_t most)
+{
+    accel_error error;
+    *e = (accel_exam){.scene = malloc(sizeof *e->scene)};
+    e->set = (accel_ray_set){.name = "catalogue",
+                             .rays = malloc((most + PILOT) * sizeof(accel_ray)),
+                             .hits = malloc((most + PILOT) * sizeof(accel_hit))};
+    if (e->scene == NULL || e->set.rays == NULL || e->set.hits == NULL) {
+        free(e->scene);
+        e->scene = NULL;
+        return false;
+    }
+    make_scene_of(&subject, e->scene);
+    e->peers = suits_peers(e->scene);
+    e->judge = subject.leaks != NULL   ? ACCEL_BY_HIT
+               : has_objects(e->scene) ? ACCEL_BY_LINEAR
+                                       : ACCEL_BY_ORACLE;
+    if (accel_build(&e->linear, &e->scene->scene, "linear", NULL, &error) != ACCEL_OK) {
+        return false;
+    }
+    make_rays(e, &subject, PILOT);
+    make_rays(e, &subject, choose_count(e, seconds, least, most));
+    return judge_rays(e, &subject);
+}
+
+void accel_exam_free(accel_exam *e)
+{
+    accel_free(e->linear);
+    if (e->scene != NULL) {
+        scene_free(e->scene);
+    }
+    free(e->scene);
+    free(e->right);
+    free(e->single);
+    accel_free_set(&e->set);
+}
+
+/* --------------------------------------------------------------- contenders ---- */
+
+static size_t trace_ours(const accel_contender *c, const accel_ray_set *set)
+{
+    size_t found = 0;
+    accel_hit hit;
+    for (size_t i = 0; i < set->count; i++) {
+        found += accel_closest(c->state, &set->rays[i], &hit, NULL);
+    }
+    return found;
+}
+
+static void end_ours(accel_contender *c)
+{
+    accel_free(c->state);
+}
+
+accel_contender accel_exam_ours(accel *a, const char *config)
+{
+    accel_info info;
+    accel_describe(a, &info);
+    accel_contender c = {.state = a,
+                         .build_seconds = info.seconds,
+                         .bytes = (double)info.bytes,
+                         .trace = trace_ours,
+                         .end = end_ours};
+    snprintf(c.name, sizeof c.name, "%.63s", config);
+    return c;
+}
+
+/* One answer of ours: the same bits as linear's, and right. */
+static bool is_right(const accel_exam *e, const accel_contender *c, size_t i)
+{
+    accel_hit hit;
+    const accel_hit *linear = &e->set.hits[i];
+    const bool found = accel_closest(c->state, &e->set.rays[i], &hit, NULL);
+    const bool same = found == (linear->geom != ACCEL_NONE) &&
+                      (!found || accel_same_hit(&hit, linear)) &&
+                      accel_any(c->state, &e->set.rays[i], NULL) == found;
+    switch (e->judge) {
+    case ACCEL_BY_HIT:
+        return same && found;
+    case ACCEL_BY_ORACLE:
+        return same && oracle_agrees(&e->right[i], found, &hit);
+    default:
+        return same;
+    }
+}
+
+/* One answer of a peer. */
+static bool names_right(const accel_exam *e, const struct judgement *right,
+                        const accel_contender *c, size_t i)
+{
+    const accel_id got = c->ask(c, &e->set, i);
+    const bool found = got.geom != ACCEL_NONE;
+    if (e->judge == ACCEL_BY_HIT) {
+        return found;
+    }
+    if (right[i].verdict != HIT) {
+        return right[i].verdict == UNDECIDED || !found;
+    }
+    return found && got.geom == right[i].geom && got.prim == right[i].prim;
+}
+
+static size_t count_wrong(const accel_exam *e, const struct judgement *right,
+                          const accel_contender *c)
+{
+    size_t wrong = 0;
+    for (size_t i = 0; i < e->set.count; i++) {
+        wrong += c->peer ? !names_right(e, right, c, i) : !is_right(e, c, i);
+    }
+    return wrong;
+}
+
+size_t accel_exam_wrong(const accel_exam *e, const accel_contender *c)
+{
+    return count_wrong(e, e->right, c);
+}
+
+size_t accel_exam_wrong_single(const accel_exam *e, const accel_contender *c)
+{
+    return count_wrong(e, e->judge == ACCEL_BY_ORACLE ? e->single : NULL, c);
+}

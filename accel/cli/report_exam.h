@@ -1,0 +1,63 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * Counting wrong answers: rays of the catalogue, what is right for each, and contenders that are
+ * asked.
+ *
+ * What is right comes from the search in 113 bits (cases/oracle.h), from the closedness of a mesh
+ * (cases/leaks.h: every ray must hit), or from linear search where a scene holds host objects. A
+ * ray that no judge decides counts for nobody. Ours must name the right primitive, with t within
+ * the bound of 113 bits; a peer in single precision need only name the primitive.
+ *
+ * Peers are judged twice: by the scene as the user gave it, and by the scene and rays rounded to
+ * single precision, which is what they were given.
+ */
+#ifndef ACCEL_CLI_REPORT_EXAM_H
+#define ACCEL_CLI_REPORT_EXAM_H
+
+#include "bench.h"
+#include "leaks.h"
+#include "oracle.h"
+
+#include "catalogue.h"
+
+/* Who says what is right. */
+typedef enum accel_judge { ACCEL_BY_ORACLE, ACCEL_BY_HIT, ACCEL_BY_LINEAR } accel_judge;
+
+/* What to ask on. */
+typedef struct accel_exam_subject {
+    const struct scene_maker *maker; /* of the scene; NULL: leaks */
+    const struct ray_family *family; /* of rays at it */
+    const struct leak_mesh *leaks;   /* scene and rays that must hit; NULL: maker */
+} accel_exam_subject;
+
+/* Rays on one scene, and what is right. */
+typedef struct accel_exam {
+    accel_judge judge;
+    struct test_scene *scene; /* owned */
+    accel *linear;            /* over it, owned */
+    accel_ray_set set;        /* the rays; hits: what linear answers */
+    struct judgement *right;  /* by the oracle, for each ray, or NULL */
+    struct judgement *single; /* the same of what peers are given, or NULL */
+    size_t decided;           /* rays that count */
+    size_t decided_single;    /* of those of peers */
+    bool peers;               /* Embree knows all of its primitives */
+    bool broken;              /* memory ran out */
+} accel_exam;
+
+/* Makes scene and rays and has them judged; takes about `seconds`: the count of rays, from `least`
+ * to `most`, is chosen by the time of the first ones. False: no memory. */
+bool accel_exam_make(accel_exam *exam, accel_exam_subject subject, double seconds, size_t least,
+                     size_t most);
+
+void accel_exam_free(accel_exam *exam);
+
+/* A structure of ours as a contender; it owns the structure. */
+accel_contender accel_exam_ours(accel *a, const char *config);
+
+/* Wrong answers of a contender to the rays that count. */
+size_t accel_exam_wrong(const accel_exam *exam, const accel_contender *c);
+
+/* The same by what peers are given, of decided_single. */
+size_t accel_exam_wrong_single(const accel_exam *exam, const accel_contender *c);
+
+#endif

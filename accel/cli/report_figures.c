@@ -1,0 +1,85 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * What the sections share: the forms of all kinds, files of figures, builds.
+ */
+#include "report.h"
+
+#include <errno.h>
+#include <string.h>
+
+static void add_form(accel_forms *f, const char *kind, const char *key, const char *word)
+{
+    if (f->count == ACCEL_MOST_FORMS) {
+        return;
+    }
+    char *to = f->at[f->count++];
+    if (key == NULL) {
+        snprintf(to, sizeof f->at[0], "%s", kind);
+    } else {
+        snprintf(to, sizeof f->at[0], "%s:%s=%s", kind, key, word);
+    }
+}
+
+accel_forms accel_report_forms(void)
+{
+    accel_forms f = {.count = 0};
+    size_t kinds;
+    const accel_kind_info *const *kind = accel_kinds(&kinds);
+    for (size_t i = 0; i < kinds; i++) {
+        add_form(&f, kind[i]->name, NULL, NULL);
+        for (size_t o = 0; o < kind[i]->option_count; o++) {
+            const accel_option *option = &kind[i]->options[o];
+            for (size_t w = 0; option->words != NULL && option->words[w] != NULL; w++) {
+                if ((double)w != option->standard) {
+                    add_form(&f, kind[i]->name, option->key, option->words[w]);
+                }
+            }
+        }
+    }
+    return f;
+}
+
+FILE *accel_report_csv(accel_reporting *r, const char *name, const char *columns)
+{
+    FILE *csv = accel_folder_file(&r->folder, name, "w");
+    if (csv == NULL) {
+        accel_complain(r->command, "cannot write %s: %s; nothing was written", name,
+                       strerror(errno));
+        return NULL;
+    }
+    fprintf(csv, "%s\n", columns);
+    return csv;
+}
+
+bool accel_report_csv_close(accel_reporting *r, FILE *csv, const char *name)
+{
+    errno = 0;
+    const bool fine = !ferror(csv);
+    if (fclose(csv) == 0 && fine) {
+        return true;
+    }
+    accel_complain(r->command, "cannot write %s: %s; nothing was written", name,
+                   errno == 0 ? "the device took no more" : strerror(errno));
+    return false;
+}
+
+double accel_report_shown(size_t wrong, size_t n)
+{
+    return (wrong > 0 ? (double)wrong : 1.0) / (double)(n > 0 ? n : 1);
+}
+
+accel *accel_report_build(accel_reporting *r, const accel_scene *scene, const char *config)
+{
+    accel *a;
+    accel_error error;
+    const accel_hooks hooks = {.user = &r->progress, .progress = accel_progress_build};
+    const char *what = r->progress.what;
+    r->progress.what = config;
+    const accel_status status = accel_build(&a, scene, config, &hooks, &error);
+    r->progress.what = what;
+    if (status == ACCEL_OK) {
+        return a;
+    }
+    accel_complain(r->command, "%s; nothing was written", error.text);
+    return NULL;
+}
