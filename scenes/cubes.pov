@@ -8,6 +8,8 @@
 // Declare=Space=X  empty space between two cubes in cube edges (default 1)
 // Declare=Form=F   0: 12,288 triangles, each an object of the scene, as in the paper (default);
 //                  1: a mesh2 of 12 triangles for each cube, 1024 objects
+// Declare=Photons=N    a glass ball over each cluster, which N photons from the lights pass
+// Declare=Radiosity=N  light that surfaces reflect diffusely, N rays for each sample
 // Geometry: cubes.inc; the same as accel's scene cubes:gap=X,space=X.
 // No jitter, no crand, no area light: the pixels do not depend on the number of threads.
 #version 3.7;
@@ -17,8 +19,9 @@
 #ifndef (Form) #declare Form = 0; #end
 
 #include "cubes.inc"
+#include "illumination.inc"
 
-global_settings { assumed_gamma 1 max_trace_level 3 }
+global_settings { assumed_gamma 1 max_trace_level 3 Illumination() }
 
 #declare Far = (8 + 7 * Space) * (1 + Gap);
 
@@ -77,3 +80,5 @@ light_source { <-70, 24, -20> rgb <0.34, 0.42, 0.58> }
 #end
 
 Cubes(Gap, Space)
+Lens(<7.5, 21, 7.5>, 4)
+Lens(<Far + 7.5, 21, 7.5>, 4)

@@ -5,6 +5,8 @@
 //
 // Declare=Form=F  0: 49,370 triangles, each an object of the scene, as in the paper (default);
 //                 1: ten meshes, one for each teapot and the floor
+// Declare=Photons=N    a glass ball over the middle, which N photons from the lights pass
+// Declare=Radiosity=N  light that surfaces reflect diffusely, N rays for each sample
 // Geometry: build/scenes/teapots*.inc, which scenes/fetch.sh teapots makes (+Lbuild/scenes): the
 // same as accel's scene teapots, in form 1 with coordinates rounded to float.
 // No jitter, no crand, no area light: the pixels do not depend on the number of threads.
@@ -16,7 +18,9 @@
     #error "teapots.inc is not in the library path: run scenes/fetch.sh teapots, add +Lbuild/scenes\n"
 #end
 
-global_settings { assumed_gamma 1 max_trace_level 5 }
+#include "illumination.inc"
+
+global_settings { assumed_gamma 1 max_trace_level 5 Illumination() }
 
 camera {
     location <-9.5, 11.5, -17.5>
@@ -65,3 +69,4 @@ background { rgb <0.045, 0.05, 0.065> }
         #declare I = I + 1;
     #end
 #end
+Lens(<-1, 6, -1>, 2)

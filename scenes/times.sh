@@ -1,18 +1,22 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# Trace times of stock POV-Ray's bounding (+BM1, +BM2) and of every kind, in turn, in one run.
+# Times of stock POV-Ray's bounding (+BM1, +BM2) and of every kind, in turn, in one run.
 #
-# Times are CPU seconds of tracing on one thread as POV-Ray's statistics state them, medians; the
-# ratio is that of stock's better method over ours, so below 1 ours is slower. Needs what
+# Times are CPU seconds of tracing, of photons and of radiosity together, as POV-Ray's statistics
+# state them, with one thread for all but the photons; medians. The ratio is that of stock's better method over ours, so below 1 ours is slower. Needs what
 # scenes/demo.sh builds; Tango comes from Debian's povray-examples.
 set -euo pipefail
 # shellcheck source=scenes/prepare.sh
 . "$(dirname "${BASH_SOURCE[0]}")/prepare.sh"
 
 if [ "${1:-}" = --help ]; then
-    say "usage: scenes/times.sh [RUNS [CONFIG]...]   (default: 5 hoo octree hug grid bsp bvh auto)"
+    say "usage: scenes/times.sh [--illumination] [RUNS [CONFIG]...]"
+    say "default: 5 hoo octree hug grid bsp bvh auto; the scenes are clustered and Tango, with"
+    say "--illumination the paper's two with POV-Ray's own photons and radiosity"
     exit 0
 fi
+illumination=0
+[ "${1:-}" != --illumination ] || { illumination=1 && shift; }
 runs=${1:-5}
 [[ $runs =~ ^[1-9][0-9]?$ ]] || die "times.sh: '$runs' runs; 1 to 99 are allowed"
 shift || true
@@ -23,12 +27,13 @@ install_missing povray povray-includes povray-examples
 times=$build/times
 mkdir -p "$times"
 
-# trace SCENE NAME COMMAND...: renders, and adds the CPU seconds of tracing to the scene's list.
+# trace SCENE NAME COMMAND...: renders, and adds the CPU seconds to the scene's list.
 trace() {
     local list=$times/$1.$2 log=$times/log
     shift 2
     (cd "$root" && "$@" -D -A -F +WT1 </dev/null >"$log" 2>&1) || die "$* failed; see build/times/log"
-    tr '\r' '\n' <"$log" | awk '/Trace Time:/ { on = 1 } on && /CPU-seconds/ { print $5; exit }' >>"$list"
+    tr '\r' '\n' <"$log" | awk '/ Time:/ { on = /(Photon|Radiosity|Trace) Time:/ } on && /CPU-seconds/ { s += $5 }
+        END { print s }' >>"$list"
 }
 
 median() { sort -n "$1" | awk '{ v[NR] = $1 } END { print v[int((NR + 1) / 2)] }'; }
@@ -54,15 +59,32 @@ table() {
     for config in "${configs[@]}"; do
         awk -v scene="$scene" -v kind="$config" -v a="$stock1" -v b="$stock2" \
             -v ours="$(median "$times/$scene.$config")" 'BEGIN {
-                printf "%-10s %-10s %8.3f %8.3f %8.3f %7.2f\n", scene, kind, a, b, ours,
+                printf "%-18s %-10s %8.3f %8.3f %8.3f %7.2f\n", scene, kind, a, b, ours,
                     (a < b ? a : b) / ours }'
     done
 }
 
-examples=/usr/share/doc/povray/examples
-turns clustered scenes/clustered.ini +W320 +H180
-turns Tango "+I$examples/bsp/Tango.pov" "+L$examples/bsp" +L/usr/share/povray-3.7/include +W160 +H120
+rows=()
+
+# measure SCENE ARGUMENT...
+measure() {
+    turns "$@"
+    rows+=("$1")
+}
+
+if [ "$illumination" -eq 0 ]; then
+    examples=/usr/share/doc/povray/examples
+    measure clustered scenes/clustered.ini +W320 +H180
+    measure Tango "+I$examples/bsp/Tango.pov" "+L$examples/bsp" \
+        +L/usr/share/povray-3.7/include +W160 +H120
+else
+    for scene in cubes teapots; do
+        measure "$scene-photons" "scenes/$scene.ini" +W320 +H180 Declare=Photons=20000
+        measure "$scene-radiosity" "scenes/$scene.ini" +W320 +H180 Declare=Radiosity=50
+    done
+fi
 say
-printf '%-10s %-10s %8s %8s %8s %7s\n' scene kind "+BM1 s" "+BM2 s" "ours s" ratio
-table clustered
-table Tango
+printf '%-18s %-10s %8s %8s %8s %7s\n' scene kind "+BM1 s" "+BM2 s" "ours s" ratio
+for row in "${rows[@]}"; do
+    table "$row"
+done

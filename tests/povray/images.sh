@@ -13,8 +13,9 @@ set -euo pipefail
 
 usage() {
     cat <<'HELP'
-usage: images.sh [-k KIND]... [-v KIND]... [-s WxH] [-j JOBS] [SCENE[@WxH]]...
+usage: images.sh [-k KIND]... [-v KIND]... [-s WxH] [-j JOBS] [SCENE[@WxH][,NAME=VALUE]...]...
   SCENE    a .pov file; without any, 19 of Debian's povray-examples
+  NAME     is declared in the scene, such as Photons=1
   -k KIND  what to compare, as for Accelerator= (default: every kind); may be repeated
   -v KIND  what to verify (default: octree and hoo)
   -s WxH   size for a SCENE without one of its own (default: 96x72)
@@ -65,7 +66,7 @@ try() {
     shift
     # +MB1: the two objects of crater are too few for the usual threshold
     render "$what.log" "$size" "$1" +I"$scene" +L"$(dirname "$scene")" \
-        +L"$build/scenes" +MB1 "${@:2}" +O"$what.ppm" && return
+        +L"$build/scenes" "${declares[@]}" +MB1 "${@:2}" +O"$what.ppm" && return
     grep -a 'rror' "$what.log" | head -n 3 || tail -n 3 "$what.log"
     echo "FAILED $what: see $PWD/$what.log"
     exit 1
@@ -83,12 +84,13 @@ run_scene() {
     try linear-search "$stock" -MB
     try BM1 "$stock" +BM1
     try BM2 "$stock" +BM2
-    row=$(printf '%-14s %7s %6d %6d' "$name" "$size" "$(compare BM1)" "$(compare BM2)")
+    row=$(printf '%-19s %7s %6d %6d' "$name" "$size" "$(compare BM1)" "$(compare BM2)")
     for kind in "${kinds[@]}"; do
         file=${kind//[:,=]/-}
         try "$file" "$ours" +BM3 Accelerator="$kind"
         grep -q '^Accelerator:      .*:\|^Accelerator:      [a-z]*$' "$file.log" ||
             echo "$name, $kind: the log has no statistics of the accelerator" >>wrong
+        check_illumination "$file.log" >>wrong
         count=$(compare "$file")
         [ "$count" -eq 0 ] || echo "$name, $kind: $count pixels differ from -MB" >>wrong
         row+=$(printf ' %6d' "$count")
@@ -97,13 +99,21 @@ run_scene() {
     printf '%s\n' "$row" >row
 }
 
+# check_illumination LOG: what is wrong if the scene asks for photons or radiosity and got none
+check_illumination() {
+    [[ $name != *-Photons=* ]] || grep -q '^Surface photons stored: *[1-9]' "$1" ||
+        echo "$name: no photon was stored"
+    [[ $name != *-Radiosity=* ]] || grep -q '^Radiosity sample rays shot: *[1-9]' "$1" ||
+        echo "$name: radiosity shot no ray"
+}
+
 # Adds queries and differences to the row.
 verify_scene() {
     local kind queries=0 differences=0 outside=0 q d o
     for kind in "${verified_kinds[@]}"; do
         file=verify-${kind//[:,=]/-}
         render "$file.log" "$size" "$ours" +I"$scene" +L"$(dirname "$scene")" \
-            +L"$build/scenes" +MB1 +BM3 Accelerator="$kind" Accelerator_Verify=On \
+            +L"$build/scenes" "${declares[@]}" +MB1 +BM3 Accelerator="$kind" Accelerator_Verify=On \
             +O"$file.ppm" ||
             echo "$name, $kind: verifying ends with exit code $?" >>wrong
         q=$(statistic "$file.log" '^Accelerator verified:' 3)
@@ -119,13 +129,34 @@ verify_scene() {
     echo $queries >queries
 }
 
-# start_job SCENE[@WxH]: in the background, in its own folder
+# item_scene, item_size, item_name ITEM: the parts of SCENE[@WxH][,NAME=VALUE]...
+item_scene() {
+    local file=${1%%[@,]*}
+    [[ $file == *.pov ]] || file+=.pov
+    printf '%s' "$file"
+}
+
+item_size() {
+    local rest=${1%%,*}
+    [[ $rest == *@* ]] && printf '%s' "${rest##*@}" || printf '%s' "$size"
+}
+
+item_name() {
+    local words
+    IFS=, read -ra words <<<"$1"
+    printf '%s' "$(basename "$(item_scene "$1")" .pov)"
+    [ ${#words[@]} -eq 1 ] || printf -- '-%s' "${words[@]:1}"
+}
+
+# start_job ITEM: in the background, in its own folder
 start_job() {
-    local scene=${1%@*} name
-    [[ $1 == *@* ]] && size=${1##*@}
-    [[ $scene == *.pov ]] || scene+=.pov
-    scene=$(realpath -e "$scene") || exit 1
-    name=$(basename "$scene" .pov)
+    local scene name words declares=()
+    name=$(item_name "$1")
+    size=$(item_size "$1")
+    scene=$(realpath -e "$(item_scene "$1")") || exit 1
+    IFS=, read -ra words <<<"$1"
+    [ ${#words[@]} -eq 1 ] || declares=("${words[@]:1}")
+    declares=("${declares[@]/#/Declare=}")
     mkdir -p "$out/$name"
     cd "$out/$name"
     rm -f ./*
@@ -137,12 +168,12 @@ print_table() {
     local item name total=0
     if [ -t 1 ]; then printf '\r\033[K'; fi
     echo "Pixels that differ from stock POV-Ray -MB; queries verified with ${verified_kinds[*]}"
-    printf '%-14s %7s %6s %6s' scene size +BM1 +BM2
+    printf '%-19s %7s %6s %6s' scene size +BM1 +BM2
     printf ' %6.6s' "${kinds[@]}"
     printf ' %10s %5s %7s\n' verified wrong outside
     for item in "${scenes[@]}"; do
-        name=$(basename "${item%@*}" .pov)
-        cat "$out/$name/row" 2>/dev/null || printf '%-14s FAILED\n' "$name"
+        name=$(item_name "$item")
+        cat "$out/$name/row" 2>/dev/null || printf '%-19s FAILED\n' "$name"
         total=$((total + $(cat "$out/$name/queries" 2>/dev/null || echo 0)))
     done
     echo "$total queries verified"
@@ -160,7 +191,7 @@ wait
 print_table
 wrong=0
 for item in "${scenes[@]}"; do
-    name=$(basename "${item%@*}" .pov)
+    name=$(item_name "$item")
     if [ ! -s "$out/$name/row" ] || [ -s "$out/$name/wrong" ]; then
         wrong=1
         cat "$out/$name/wrong" 2>/dev/null || echo "$name: there is no such scene"
