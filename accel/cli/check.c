@@ -41,21 +41,26 @@ typedef struct request {
     uint64_t rays, seed, threads, judged; /* 0 for the default of threads and judged */
 } request;
 
-/* One config for each form of a kind; `texts` has room for ACCEL_MOST_CONFIGS of them. */
+/* Adds KIND, or KIND:key=word for an option; `texts` has room for ACCEL_MOST_CONFIGS of them. */
+static bool add_form(accel_configs *configs, const char *kind, const char *key, const char *word,
+                     char (*texts)[60], const accel_command *command)
+{
+    char *text = texts[configs->count % ACCEL_MOST_CONFIGS];
+    snprintf(text, sizeof texts[0], key ? "%s:%s=%s" : "%s", kind, key, word);
+    return accel_configs_add(configs, text, command);
+}
+
+/* A kind as it comes, then with each other word that one of its options may have. */
 static bool every_form(accel_configs *configs, const accel_kind_info *kind, char (*texts)[60],
                        const accel_command *command)
 {
-    static const char *const one[] = {"", NULL};
-    const char *const *forms = one;
+    bool fine = add_form(configs, kind->name, NULL, NULL, texts, command);
     for (size_t k = 0; k < kind->option_count; k++) {
-        forms = strcmp(kind->options[k].key, "form") == 0 ? kind->options[k].words : forms;
-    }
-    bool fine = true;
-    for (; fine && *forms != NULL; forms++) {
-        char *text = texts[configs->count % ACCEL_MOST_CONFIGS];
-        snprintf(text, sizeof texts[0], "%s%s%s", kind->name,
-                 **forms == '\0' ? "" : ":form=", *forms);
-        fine = accel_configs_add(configs, text, command);
+        const accel_option *option = &kind->options[k];
+        for (size_t w = 0; fine && option->words != NULL && option->words[w] != NULL; w++) {
+            fine = w == (size_t)option->standard ||
+                   add_form(configs, kind->name, option->key, option->words[w], texts, command);
+        }
     }
     return fine;
 }
