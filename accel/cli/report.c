@@ -14,8 +14,8 @@ static const accel_flag flags[] = {
     [FLAG_OUTPUT] = {"output", 'o', "DIR", "folder to make; a former report there is replaced"},
     [FLAG_QUICK] = {"quick", 0, NULL, "fewer rays, photons and sizes: less than two minutes"},
     [FLAG_MINUTES] = {"minutes", 0, "M",
-                      "about as long, 0..1440 (default: 40); 0: the least counts"},
-    [FLAG_ONLY] = {"only", 0, "PART", "of exact (default: all)"},
+                      "about as long, 0..1440 (default: 60); 0: the least counts"},
+    [FLAG_ONLY] = {"only", 0, "PART", "of exact, light (default: all)"},
 };
 
 /* What --quick gives the sections: the least counts of some take longer than their share, and two
@@ -29,6 +29,7 @@ static const struct part {
     double share;
 } parts[] = {
     {"exact", accel_report_exact, 0.2},
+    {"light", accel_report_light, 0.35},
 };
 
 enum { PARTS = sizeof parts / sizeof parts[0] };
@@ -125,7 +126,7 @@ static bool read_part(const accel_arguments *a, request *q)
             return true;
         }
     }
-    accel_complain(a->command, "--only is '%.60s'; allowed is exact", a->value);
+    accel_complain(a->command, "--only is '%.60s'; allowed are exact, light", a->value);
     return false;
 }
 
@@ -150,7 +151,7 @@ static bool read_flag(const accel_arguments *a, int flag, request *q)
 
 static int run(const accel_command *command, int argc, char **argv)
 {
-    request q = {.minutes = 40.0};
+    request q = {.minutes = 60.0};
     accel_arguments arguments = accel_arguments_start(command, argc, argv);
     int flag;
     while ((flag = accel_next_argument(&arguments)) != ACCEL_ARGUMENT_END) {

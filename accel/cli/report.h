@@ -18,6 +18,7 @@ typedef struct accel_reporting {
     FILE *page;              /* index.html */
     accel_progress progress; /* shown while it runs */
     double seconds;          /* that the whole may take, about */
+    double built;            /* processor time of the last accel_report_build */
     uint64_t judged;         /* answers of ours that were judged */
     uint64_t wrong;          /* of them */
 } accel_reporting;
@@ -25,7 +26,7 @@ typedef struct accel_reporting {
 /* A section: takes about `seconds`. False: it has complained. */
 typedef bool accel_report_section(accel_reporting *r, double seconds);
 
-accel_report_section accel_report_exact;
+accel_report_section accel_report_exact, accel_report_light;
 
 /* --------------------------------------------------------------------- page ---- */
 

@@ -47,9 +47,17 @@ static const subject subjects[] = {
 
 enum { SUBJECTS = sizeof subjects / sizeof subjects[0] };
 
+/* How Embree's time compares over all scenes. */
+typedef struct comparison {
+    double ratio;  /* time of our fastest over that of Embree's, on the harmless first scene */
+    size_t scenes; /* compared */
+    size_t lower;  /* of them: Embree has fewer than 1 in 1000 wrong, as the scene was given */
+} comparison;
+
 /* One scene under way. */
 typedef struct examined {
     accel_reporting *r;
+    comparison *all;
     const subject *subject;
     accel_exam exam;
     accel_contender at[ACCEL_MOST_FORMS + ACCEL_MOST_PEERS];
@@ -66,7 +74,8 @@ static bool build_all(examined *x)
         if (a == NULL) {
             return false;
         }
-        x->at[x->count++] = accel_exam_ours(a, forms.at[i]);
+        x->at[x->count] = accel_exam_ours(a, forms.at[i]);
+        x->at[x->count++].build_seconds = x->r->built;
     }
     if (x->exam.peers) {
         x->count += accel_bench_peers(x->at + x->count, &x->exam.scene->scene, 1.0);
@@ -134,9 +143,29 @@ static accel_ray random_ray(const struct test_scene *s, const accel *judge, stru
 static const struct ray_family random_rays = {"G1",       "random", "rays that aim at nothing",
                                               random_ray, 0,        NULL};
 
-static bool run_subject(accel_reporting *r, const subject *s, FILE *csv, double seconds)
+/* The peers of a scene against the best of ours. */
+static void compare_peers(const examined *x)
 {
-    examined x = {.r = r, .subject = s, .csv = csv};
+    double ours = (double)INFINITY, theirs = (double)INFINITY, share = 1.0;
+    for (size_t c = 0; c < x->count; c++) {
+        const double ns = x->ns[c][TURNS / 2];
+        *(x->at[c].peer ? &theirs : &ours) = fmin(x->at[c].peer ? theirs : ours, ns);
+        if (x->at[c].peer) {
+            share = fmin(share, (double)accel_exam_wrong(&x->exam, &x->at[c]) /
+                                    (double)(x->exam.decided + 1));
+        }
+    }
+    if (x->exam.peers && theirs > 0.0) {
+        x->all->ratio = x->all->scenes == 0 ? ours / theirs : x->all->ratio;
+        x->all->lower += share < 1e-3;
+        x->all->scenes++;
+    }
+}
+
+static bool run_subject(accel_reporting *r, const subject *s, FILE *csv, double seconds,
+                        comparison *all)
+{
+    examined x = {.r = r, .subject = s, .csv = csv, .all = all};
     const accel_exam_subject on = {.maker = s->maker != NULL ? scene_maker_find(s->maker) : NULL,
                                    .family = s->random ? &random_rays : ray_families,
                                    .leaks = s->maker == NULL ? &leak_balls[s->leaks] : NULL};
@@ -146,6 +175,7 @@ static bool run_subject(accel_reporting *r, const subject *s, FILE *csv, double 
     } else if ((fine = build_all(&x))) {
         time_all(&x);
         judge_all(&x);
+        compare_peers(&x);
     }
     for (size_t c = 0; c < x.count; c++) {
         x.at[c].end(&x.at[c]);
@@ -288,7 +318,7 @@ static bool draw_distance(accel_reporting *r)
     return accel_plot_close(r, &plot);
 }
 
-static bool write_page(accel_reporting *r)
+static bool write_page(accel_reporting *r, const comparison *all)
 {
     accel_page_title(r, "exact", "Exact answers: what is wrong, against time per ray");
     accel_page_text(
@@ -300,13 +330,16 @@ static bool write_page(accel_reporting *r)
         "linear search. Embree, by Intel, works in single precision, eight triangles at a time: "
         "dark crosses compare it with the scene as the user gave it in double, light ones with "
         "the scene rounded to single precision, which is all that it was given.");
-    return accel_page_plot(
-               r, "exact", csv_name,
-               "Time per ray (right is slower) against the share of wrong answers (down is "
-               "better). Where none of N answers was wrong, the point stands at 1/N: read "
-               "&ldquo;&lt; 1/N&rdquo;. All our kinds stand on that line in every panel. "
-               "<b>Where we lose:</b> Embree is left of all of ours by a factor of 2 to 4, and "
-               "where its input is harmless, its mistakes are few.") &&
+    char caption[1000];
+    snprintf(caption, sizeof caption,
+             "Time per ray (right is slower) against the share of wrong answers (down is better). "
+             "Where none of N answers was wrong, the point stands at 1/N with an arrow down: read "
+             "&ldquo;&lt; 1/N&rdquo;. <b>Where we lose:</b> time. On the harmless first panel the "
+             "fastest of ours takes %.1f times as long as the fastest of Embree's four modes, and "
+             "on %zu of the %zu scenes one of those has fewer than one wrong answer in a thousand. "
+             "Where Embree is far left at a high share it sees little of the scene.",
+             all->ratio, all->lower, all->scenes);
+    return accel_page_plot(r, "exact", csv_name, caption) &&
            accel_page_plot(r, "exact-build", csv_name,
                            "The same with the build: seconds for the build and a million rays. "
                            "<b>Where we lose:</b> the same factor; builds of scenes this small do "
@@ -324,9 +357,10 @@ bool accel_report_exact(accel_reporting *r, double seconds)
     if (csv == NULL) {
         return false;
     }
+    comparison all = {.scenes = 0};
     for (size_t i = 0; i < SUBJECTS; i++) {
         accel_progress_show(&r->progress, subjects[i].name, (double)i / SUBJECTS);
-        if (!run_subject(r, &subjects[i], csv, seconds / SUBJECTS)) {
+        if (!run_subject(r, &subjects[i], csv, seconds / SUBJECTS, &all)) {
             fclose(csv);
             return false;
         }
@@ -334,5 +368,5 @@ bool accel_report_exact(accel_reporting *r, double seconds)
     return accel_report_csv_close(r, csv, csv_name) &&
            draw(r, "exact", 12, "ns per ray", "[20:1e5]") &&
            draw(r, "exact-build", 14, "seconds, build and 10⁶ rays", "[0.02:100]") &&
-           draw_distance(r) && write_page(r);
+           draw_distance(r) && write_page(r, &all);
 }

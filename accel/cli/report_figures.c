@@ -4,6 +4,8 @@
  */
 #include "report.h"
 
+#include "machine.h"
+
 #include <errno.h>
 #include <string.h>
 
@@ -75,7 +77,9 @@ accel *accel_report_build(accel_reporting *r, const accel_scene *scene, const ch
     const accel_hooks hooks = {.user = &r->progress, .progress = accel_progress_build};
     const char *what = r->progress.what;
     r->progress.what = config;
+    const double start = accel_machine_seconds();
     const accel_status status = accel_build(&a, scene, config, &hooks, &error);
+    r->built = accel_machine_seconds() - start;
     r->progress.what = what;
     if (status == ACCEL_OK) {
         return a;

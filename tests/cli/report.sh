@@ -42,8 +42,24 @@ for each in $kinds; do
     [ "$(grep -c ",$each,0,given," page/exact.csv)" = 12 ] || fail "$each is not on every scene"
 done
 
+timed=$(grep -vcx linear <<<"$kinds")
+[ "$timed" -gt 1 ] || timed=$(wc -l <<<"$kinds") # without another kind linear is timed as well
+has light.csv "scene,estimator,radius,photons,seeds,structure,build_seconds,photon_seconds,estimate_seconds,seconds,rmse,bias,bias_seen,floor,hash" "$((2 * 2 * 4 * timed))"
+for scene in plates teapots; do
+    for photons in 1000 10000; do
+        awk -F, -v s=$scene -v n=$photons '$1 == s && $4 == n { rows++; hash[$15]; if (!($5 >= 16 &&
+            $10 > 0 && $11 > 0)) bad = 1 } END { for (h in hash) hashes++
+            exit !(rows > 0 && hashes == 1 && !bad) }' page/light.csv ||
+            fail "$scene with $photons photons: not one hash for all, or fewer than 16 seeds"
+    done
+done
+# noise falls with the root of the number of photons: by 3.16 for ten times as many
+awk -F, '$1 == "plates" && $2 == "paths" && $6 == "auto" { e[$4] += $11 }
+    END { f = e[1000] / e[10000]; exit !(f > 2.5 && f < 4) }' page/light.csv ||
+    fail "the error does not fall as noise does"
+
 plots=$(find page -name '*.svg' | sort)
-[ "$(wc -l <<<"$plots")" -ge 3 ] || fail "only these plots: $plots"
+[ "$(wc -l <<<"$plots")" -ge 6 ] || fail "only these plots: $plots"
 for plot in $plots; do
     python3 - "$plot" <<'PYTHON' || fail "$plot is no XML"
 import sys, xml.etree.ElementTree

@@ -6,6 +6,7 @@
  * that a wide bound cannot hide a miss.
  */
 #include "photons.h"
+#include "plates.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -124,22 +125,8 @@ static double plates_form_factor(double x, double y)
             y * x1 * atan(y / x1) - x * atan(x) - y * atan(y));
 }
 
-/* From a point to the parallel rectangle a x b at distance 1 with a corner above it; for negative
- * sides the value changes its sign, so that corners add up to any rectangle. Howell, B-3. */
-static double corner_form_factor(double a, double b)
-{
-    const double a1 = sqrt(1.0 + a * a), b1 = sqrt(1.0 + b * b);
-    return (a / a1 * atan(b / a1) + b / b1 * atan(a / b1)) / (2.0 * PI);
-}
-
-/* From the point (x, z) of the floor to the whole ceiling of the unit cube. */
-static double ceiling_form_factor(double x, double z)
-{
-    return corner_form_factor(1.0 - x, 1.0 - z) + corner_form_factor(x, 1.0 - z) +
-           corner_form_factor(1.0 - x, z) + corner_form_factor(x, z);
-}
-
-/* Its mean over a disc: the midpoint rule in r^2 and angle, converged to 1e-6. */
+/* The form factor from a point of the floor to the ceiling of the unit cube, in the mean over a
+ * disc: the midpoint rule in r^2 and angle, converged to 1e-6. */
 static double mean_over_disc(double x, double z, double radius)
 {
     enum { RINGS = 64, SPOKES = 64 };
@@ -147,7 +134,7 @@ static double mean_over_disc(double x, double z, double radius)
     for (int i = 0; i < RINGS; i++) {
         for (int j = 0; j < SPOKES; j++) {
             const double r = radius * sqrt((i + 0.5) / RINGS), angle = 2.0 * PI * j / SPOKES;
-            sum += ceiling_form_factor(x + r * cos(angle), z + r * sin(angle));
+            sum += accel_ceiling_form_factor(x + r * cos(angle), z + r * sin(angle));
         }
     }
     return sum / (RINGS * SPOKES);

@@ -1,0 +1,61 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * Between the parts of the report on illumination: scenes with receivers whose irradiance is known
+ * by a method that has nothing to do with photons.
+ *
+ * plates: a lit unit square over a floor, black, 32,768 triangles; irradiance by the form factor, a
+ * closed form. teapots: the paper's nine teapots and a floor, reflectance 1/2; irradiance by paths
+ * from the receivers to the light (see report_reference.c), with a standard error.
+ */
+#ifndef ACCEL_CLI_REPORT_LIGHT_H
+#define ACCEL_CLI_REPORT_LIGHT_H
+
+#include "photons.h"
+#include "report.h"
+
+enum { ACCEL_RECEIVERS = 64, ACCEL_RADII = 3 };
+
+/* A scene and what is right in it. Ended by accel_light_scene_free. */
+typedef struct accel_light_scene {
+    const char *name, *title;
+    accel_loaded loaded;
+    accel_light light;
+    accel_photon_run run; /* its light and reflectance; photons and seed are set for each run */
+    accel_receiver receivers[ACCEL_RECEIVERS];
+    accel_id on[ACCEL_RECEIVERS]; /* the primitives that they lie on */
+    size_t count;                 /* of receivers */
+    double radius[ACCEL_RADII];
+    double right[ACCEL_RECEIVERS]; /* irradiance */
+    double error[ACCEL_RECEIVERS]; /* standard error of it */
+    double mean;                   /* of right */
+    double floor;                  /* root of the mean square of error, over mean */
+} accel_light_scene;
+
+bool accel_light_plates(accel_light_scene *s, accel_reporting *r);
+
+/* The reference takes about `seconds`. */
+bool accel_light_teapots(accel_light_scene *s, accel_reporting *r, double seconds);
+
+void accel_light_scene_free(accel_light_scene *s);
+
+/* Irradiance of the receivers by paths from them: fills right and error. `a` is built over the
+ * scene. */
+void accel_light_reference(accel_light_scene *s, const accel *a, double seconds);
+
+/* What one line of the figures says. */
+typedef struct accel_light_row {
+    const char *estimator; /* "paths" or "nearest" */
+    int radius;            /* its index */
+    uint32_t photons;
+    unsigned seeds;
+    double rmse;      /* over receivers and seeds, over the mean irradiance */
+    double bias;      /* root of the mean square over receivers, the noise taken off; not below 0 */
+    double bias_seen; /* what of bias can be told from noise: its standard error */
+} accel_light_row;
+
+/* Draws the plots and writes the page; `slowest` is the caption of the last plot. */
+bool accel_light_page(accel_reporting *r, const char *slowest);
+
+#define ACCEL_LIGHT_CSV "light.csv"
+
+#endif
