@@ -144,8 +144,8 @@ pixel_of() {
 # verify SCENE CONFIG: a small render in which linear search judges every query; sets verified_count
 # and difference_count.
 verify() {
-    local scene=$1 config=$2 log=$demo/$1.verify.log width=64 height=36
-    [ "$scene" != teapots ] || width=40 height=22
+    local scene=$1 config=$2 log=$demo/$1.verify.log width=48 height=27
+    [ "$scene" != teapots ] || width=32 height=18
     progress "$scene, $config: every ray judged by linear search, at ${width}x$height"
     render "$log" build/povray-accel "scenes/$scene.ini" +FP16 +WT"$(nproc)" Bounding_Method=3 \
         Accelerator="$config" Accelerator_Verify=On +O"build/demo/$scene-verify.ppm" || true
