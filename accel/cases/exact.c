@@ -1,7 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "exact.h"
 
-static const quad unit = 0x1p-53;
+#include <float.h>
+
+static const quad unit = (quad)0x1p-53;
+
+/* What a rounding may add where it underflows; that many roundings are counted at each place. */
+static const quad tiny = 8 * (quad)0x1p-1074;
 
 /* The bounds are first order: doubled, they hold. */
 static const quad safety = 2;
@@ -65,10 +70,10 @@ static struct seen see(const accel_ray *ray, const double *vertices)
 
 static quad edge_bound(const struct seen *s, int j, int k)
 {
-    const quad d = 6 * unit * s->size;
+    const quad d = 6 * unit * s->size + tiny;
     const quad sum = absolute(s->x[j]) + absolute(s->y[j]) + absolute(s->x[k]) + absolute(s->y[k]);
     const quad products = absolute(s->x[k] * s->y[j]) + absolute(s->y[k] * s->x[j]);
-    return safety * (d * sum + 3 * unit * products);
+    return safety * (d * sum + 3 * unit * products + tiny);
 }
 
 static struct exact undecided(const struct seen *s, quad margin)
@@ -97,12 +102,14 @@ struct exact exact_triangle(const accel_ray *ray, const double *vertices)
         scaled += e[i] * s.z[i];
         far = greater(far, absolute(s.z[i]));
     }
-    const quad margin = safety * 10 * unit * far;
+    const quad margin = safety * (10 * unit * far + tiny);
     if (positive > 0 && negative > 0)
         return (struct exact){NO_HIT, 0, 0, 0, 0};
     if (positive + negative < 3)
         return undecided(&s, margin);
     const quad t = scaled / sum;
+    if (absolute(t) > (quad)DBL_MAX)
+        return undecided(&s, margin);
     quad off = margin;
     for (int i = 0; i < 3; i++)
         off += bound[i] * absolute(s.z[i] - t) / (absolute(sum) - lesser(doubt, absolute(sum) / 2));

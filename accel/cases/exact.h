@@ -10,7 +10,8 @@
  * most 6uR = D. An edge function a b - c d of such numbers is off by at most
  * D (|a| + |b| + |c| + |d|) + 3u (|ab| + |cd|) = B. With edge functions e_i and t = sum e_i z_i /
  * sum e_i, an error of d_i in each moves t by sum d_i (z_i - t) / sum e_i; the z_i themselves and
- * the last division add at most 10u max |z_i|.
+ * the last division add at most 10u max |z_i|. Where a number underflows each rounding adds up to
+ * 2^-1074 instead. A t beyond double's range is nobody's: undecided.
  */
 #ifndef CASES_EXACT_H
 #define CASES_EXACT_H

@@ -30,12 +30,26 @@ static void enter(struct judgement *j, const accel_ray *ray, const struct exact 
     j->prim = prim;
 }
 
+/* A ray that is none hits nothing: see accel_ray. */
+static bool is_ray(const accel_ray *r)
+{
+    bool any = false;
+    for (int k = 0; k < 3; k++) {
+        if (!isfinite(r->org[k]) || !isfinite(r->dir[k]))
+            return false;
+        any = any || r->dir[k] != 0;
+    }
+    return any && !isnan(r->tmin) && !isnan(r->tmax);
+}
+
 struct judgement oracle_judge(const struct test_scene *s, const accel_ray *ray)
 {
     struct judgement j = {.verdict = NO_HIT, .undecided = infinity(), .second = infinity()};
-    for (uint32_t g = 0; g < s->count; g++) {
+    for (uint32_t g = 0; g < s->count && is_ray(ray); g++) {
         const struct part *p = &s->part[g];
         for (uint32_t i = 0; i < p->count; i++) {
+            if (g == ray->skip.geom && i == ray->skip.prim)
+                continue;
             if (p->type == ACCEL_TRIANGLES) {
                 if (exact_misses(ray, p->data + 9 * (size_t)i))
                     continue;

@@ -5,13 +5,12 @@
  */
 #include "report.h"
 
-#include "machine.h"
 #include "report_exam.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-enum { TURNS = 5, LEAST_RAYS = 300, MOST_RAYS = 100000, TIMED_RAYS = 2000 };
+enum { LEAST_RAYS = 300, MOST_RAYS = 100000 };
 
 /* Rays that the second plot adds to the build. */
 #define MANY_RAYS 1e6
@@ -60,71 +59,29 @@ typedef struct examined {
     comparison *all;
     const subject *subject;
     accel_exam exam;
-    accel_contender at[ACCEL_MOST_FORMS + ACCEL_MOST_PEERS];
-    double ns[ACCEL_MOST_FORMS + ACCEL_MOST_PEERS][TURNS];
-    size_t count;
+    accel_field field;
     FILE *csv;
 } examined;
 
-static bool build_all(examined *x)
-{
-    const accel_forms forms = accel_report_forms();
-    for (size_t i = 0; i < forms.count; i++) {
-        accel *a = accel_report_build(x->r, &x->exam.scene->scene, forms.at[i]);
-        if (a == NULL) {
-            return false;
-        }
-        x->at[x->count] = accel_exam_ours(a, forms.at[i]);
-        x->at[x->count++].build_seconds = x->r->built;
-    }
-    if (x->exam.peers) {
-        x->count += accel_bench_peers(x->at + x->count, &x->exam.scene->scene, 1.0);
-    }
-    return true;
-}
-
-static int compare(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-/* All take turns on the first rays; the median counts. */
-static void time_all(examined *x)
-{
-    accel_ray_set set = x->exam.set;
-    set.count = set.count < TIMED_RAYS ? set.count : TIMED_RAYS;
-    for (int turn = 0; turn < TURNS; turn++) {
-        for (size_t c = 0; c < x->count; c++) {
-            const double start = accel_machine_seconds();
-            x->at[c].trace(&x->at[c], &set);
-            x->ns[c][turn] = 1e9 * (accel_machine_seconds() - start) / (double)(set.count + 1);
-        }
-    }
-    for (size_t c = 0; c < x->count; c++) {
-        qsort(x->ns[c], TURNS, sizeof x->ns[c][0], compare);
-    }
-}
-
 static void write_row(const examined *x, size_t c, const char *input, size_t decided, size_t wrong)
 {
-    const double ns = x->ns[c][TURNS / 2];
-    const char *judges[] = {"113 bits", "closedness", "linear"};
+    const double ns = x->field.ns[c];
     fprintf(x->csv, "%s,%s,%d,%s,%s,%llu,%zu,%zu,%zu,%.3e,%.3e,%.1f,%.6f,%.4f\n", x->subject->name,
-            x->at[c].name, x->at[c].peer, input, judges[x->exam.judge],
+            x->field.at[c].name, x->field.at[c].peer, input, accel_judge_names[x->exam.judge],
             (unsigned long long)scene_size(x->exam.scene), x->exam.set.count, decided, wrong,
             decided > 0 ? (double)wrong / (double)decided : 0.0, accel_report_shown(wrong, decided),
-            ns, x->at[c].build_seconds, x->at[c].build_seconds + 1e-9 * MANY_RAYS * ns);
+            ns, x->field.at[c].build_seconds, x->field.at[c].build_seconds + 1e-9 * MANY_RAYS * ns);
 }
 
 static void judge_all(examined *x)
 {
-    for (size_t c = 0; c < x->count; c++) {
-        const size_t wrong = accel_exam_wrong(&x->exam, &x->at[c]);
-        write_row(x, c, "given", x->exam.decided, wrong);
-        if (x->at[c].peer) {
+    for (size_t c = 0; c < x->field.count; c++) {
+        const size_t wrong = accel_exam_wrong(&x->exam, &x->field.at[c]);
+        write_row(x, c, "given", x->field.at[c].peer ? x->exam.decided_peer : x->exam.decided,
+                  wrong);
+        if (x->field.at[c].peer) {
             write_row(x, c, "rounded", x->exam.decided_single,
-                      accel_exam_wrong_single(&x->exam, &x->at[c]));
+                      accel_exam_wrong_single(&x->exam, &x->field.at[c]));
         } else {
             x->r->judged += x->exam.set.count;
             x->r->wrong += wrong;
@@ -147,12 +104,12 @@ static const struct ray_family random_rays = {"G1",       "random", "rays that a
 static void compare_peers(const examined *x)
 {
     double ours = (double)INFINITY, theirs = (double)INFINITY, share = 1.0;
-    for (size_t c = 0; c < x->count; c++) {
-        const double ns = x->ns[c][TURNS / 2];
-        *(x->at[c].peer ? &theirs : &ours) = fmin(x->at[c].peer ? theirs : ours, ns);
-        if (x->at[c].peer) {
-            share = fmin(share, (double)accel_exam_wrong(&x->exam, &x->at[c]) /
-                                    (double)(x->exam.decided + 1));
+    for (size_t c = 0; c < x->field.count; c++) {
+        const double ns = x->field.ns[c];
+        *(x->field.at[c].peer ? &theirs : &ours) = fmin(x->field.at[c].peer ? theirs : ours, ns);
+        if (x->field.at[c].peer) {
+            share = fmin(share, (double)accel_exam_wrong(&x->exam, &x->field.at[c]) /
+                                    (double)(x->exam.decided_peer + 1));
         }
     }
     if (x->exam.peers && theirs > 0.0) {
@@ -172,14 +129,12 @@ static bool run_subject(accel_reporting *r, const subject *s, FILE *csv, double 
     bool fine = accel_exam_make(&x.exam, on, seconds, LEAST_RAYS, MOST_RAYS);
     if (!fine) {
         accel_complain(r->command, "no memory for the rays of %s; nothing was written", s->name);
-    } else if ((fine = build_all(&x))) {
-        time_all(&x);
+    } else if ((fine = accel_field_build(&x.field, r, &x.exam))) {
+        accel_field_time(&x.field, &x.exam);
         judge_all(&x);
         compare_peers(&x);
     }
-    for (size_t c = 0; c < x.count; c++) {
-        x.at[c].end(&x.at[c]);
-    }
+    accel_field_free(&x.field);
     accel_exam_free(&x.exam);
     return fine;
 }

@@ -11,32 +11,75 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { SEED = 1, PILOT = 24 };
+/* Rays whose time tells that of the others; fewer where one takes long. */
+enum { PILOT = 24, SHORT_PILOT = 3, LARGE_SCENE = 10000 };
+
+const char *const accel_judge_names[] = {"113 bits", "closedness", "linear", "integers"};
 
 /* ------------------------------------------------------------ scene and rays ---- */
+
+static uint64_t seed_of(const accel_exam_subject *subject)
+{
+    return subject->seed == 0 ? 1 : subject->seed;
+}
 
 static void make_scene_of(const accel_exam_subject *subject, struct test_scene *s)
 {
     if (subject->leaks != NULL) {
-        leak_make(s, subject->leaks, SEED);
+        leak_make(s, subject->leaks, seed_of(subject));
     } else {
-        scene_make(s, subject->maker, SEED);
+        scene_make(s, subject->maker, seed_of(subject));
     }
+}
+
+/* A ray along an integer line, and the first that it hits; its `under` is 0 where it hits nothing.
+ * Scenes are those in which no line hits more than ALL. */
+static accel_ray integer_ray(const struct test_scene *s, struct dice *d, struct crossing *first)
+{
+    enum { ALL = 300 };
+    struct crossing all[ALL];
+    struct line line;
+    const accel_ray ray = lattice_line(s, d, &line);
+    const uint32_t count = lattice_crossings(s, &line, false, all, ALL);
+    *first = count > 0 ? all[0] : (struct crossing){.under = 0};
+    return ray;
 }
 
 static void make_rays(accel_exam *e, const accel_exam_subject *subject, size_t count)
 {
-    struct dice d = dice_from(SEED, 2);
+    struct dice d = dice_from(seed_of(subject), 2);
     e->set.count = 0;
     for (uint64_t i = 0; e->set.count < count && i < 8 * (uint64_t)count; i++) {
         accel_ray *ray = &e->set.rays[e->set.count];
         if (subject->leaks != NULL) {
             e->set.count += leak_ray(subject->leaks, e->scene, &d, i, ray);
+        } else if (subject->integers) {
+            *ray = integer_ray(e->scene, &d, &e->exact[e->set.count]);
+            e->set.count++;
         } else {
             *ray = subject->family->make(e->scene, e->linear, &d, i);
             e->set.count++;
         }
     }
+}
+
+/* What Embree's rays may hold: it ends the program at others (ray.h: valid, FLT_LARGE). */
+#define PEER_RANGE 1.844e18
+
+static bool is_in_range(const accel_ray *ray)
+{
+    for (int k = 0; k < 3; k++) {
+        if (!(fabs(ray->org[k]) <= PEER_RANGE) || !(fabs(ray->dir[k]) <= PEER_RANGE)) {
+            return false;
+        }
+    }
+    return !isnan(ray->tmin) && !isnan(ray->tmax);
+}
+
+/* Embree has no hits behind the origin: such a ray is not its fault. */
+static bool is_forward(const accel_ray *ray)
+{
+    return !(ray->tmin < 0.0);
 }
 
 /* Of what Embree makes its own copy: finite triangles and spheres. */
@@ -52,14 +95,17 @@ static bool suits_peers(const struct test_scene *s)
     return any;
 }
 
-static bool has_objects(const struct test_scene *s)
+/* Triangles and spheres alone, all of them valid: what the oracle knows. */
+static bool suits_oracle(const struct test_scene *s, const accel *linear)
 {
+    accel_info info;
+    accel_describe(linear, &info);
     for (uint32_t g = 0; g < s->count; g++) {
         if (s->part[g].type == ACCEL_OBJECTS) {
-            return true;
+            return false;
         }
     }
-    return false;
+    return info.skipped == 0;
 }
 
 /* ------------------------------------------------------------------ judging ---- */
@@ -141,36 +187,66 @@ static bool judge_single(accel_exam *e, const accel_exam_subject *subject)
     return e->single != NULL;
 }
 
-static size_t count_decided(const struct judgement *j, size_t count)
+/* Of all rays, or of those that a peer can be asked. */
+static size_t count_decided(const accel_exam *e, const struct judgement *j, bool peer)
 {
     size_t decided = 0;
-    for (size_t i = 0; i < count; i++) {
-        decided += j[i].verdict != UNDECIDED;
+    for (size_t i = 0; i < e->set.count; i++) {
+        decided +=
+            (j == NULL || j[i].verdict != UNDECIDED) && (!peer || is_forward(&e->set.rays[i]));
     }
     return decided;
 }
 
+static bool make_peer_set(accel_exam *e)
+{
+    e->peer_set =
+        (accel_ray_set){.name = "peers", .rays = malloc((e->set.count + 1) * sizeof(accel_ray))};
+    if (e->peer_set.rays == NULL) {
+        return false;
+    }
+    for (size_t i = 0; i < e->set.count; i++) {
+        if (is_in_range(&e->set.rays[i]) && is_forward(&e->set.rays[i])) {
+            e->peer_set.rays[e->peer_set.count++] = e->set.rays[i];
+        }
+    }
+    return true;
+}
+
+/* Rays at which a host object reports a hit before its box are left out: the header exempts
+ * them. */
 static void ask_linear(accel_exam *e)
 {
+    size_t kept = 0;
     for (size_t i = 0; i < e->set.count; i++) {
-        e->set.hits[i].geom = ACCEL_NONE;
-        e->set.found += accel_closest(e->linear, &e->set.rays[i], &e->set.hits[i], NULL);
+        accel_query query = {.user = NULL};
+        accel_hit hit = {.geom = ACCEL_NONE};
+        const bool found = accel_closest(e->linear, &e->set.rays[i], &hit, &query);
+        if (query.outside > 0) {
+            continue;
+        }
+        e->set.found += found;
+        e->set.rays[kept] = e->set.rays[i];
+        e->set.hits[kept++] = hit;
     }
+    e->set.count = kept;
 }
 
 static bool judge_rays(accel_exam *e, const accel_exam_subject *subject)
 {
     ask_linear(e);
-    e->decided = e->decided_single = e->set.count;
-    if (e->judge != ACCEL_BY_ORACLE) {
-        return true;
-    }
-    e->right = judge_all(e->scene, e->set.rays, e->set.count);
-    if (e->right == NULL || (e->peers && !judge_single(e, subject))) {
+    if (e->peers && !make_peer_set(e)) {
         return false;
     }
-    e->decided = count_decided(e->right, e->set.count);
-    e->decided_single = e->peers ? count_decided(e->single, e->set.count) : 0;
+    if (e->judge == ACCEL_BY_ORACLE) {
+        e->right = judge_all(e->scene, e->set.rays, e->set.count);
+        if (e->right == NULL || (e->peers && !judge_single(e, subject))) {
+            return false;
+        }
+    }
+    e->decided = count_decided(e, e->right, false);
+    e->decided_peer = e->peers ? count_decided(e, e->right, true) : 0;
+    e->decided_single = e->peers ? count_decided(e, e->single, true) : 0;
     return true;
 }
 
@@ -206,20 +282,25 @@ bool accel_exam_make(accel_exam *e, accel_exam_subject subject, double seconds, 
     e->set = (accel_ray_set){.name = "catalogue",
                              .rays = malloc((most + PILOT) * sizeof(accel_ray)),
                              .hits = malloc((most + PILOT) * sizeof(accel_hit))};
-    if (e->scene == NULL || e->set.rays == NULL || e->set.hits == NULL) {
+    e->exact = malloc((most + PILOT) * sizeof *e->exact);
+    if (e->scene == NULL || e->set.rays == NULL || e->set.hits == NULL || e->exact == NULL) {
         free(e->scene);
         e->scene = NULL;
         return false;
     }
     make_scene_of(&subject, e->scene);
     e->peers = suits_peers(e->scene);
-    e->judge = subject.leaks != NULL   ? ACCEL_BY_HIT
-               : has_objects(e->scene) ? ACCEL_BY_LINEAR
-                                       : ACCEL_BY_ORACLE;
+    e->judge = subject.leaks != NULL ? ACCEL_BY_HIT
+               : subject.integers    ? ACCEL_BY_INTEGERS
+                                     : ACCEL_BY_ORACLE;
     if (accel_build(&e->linear, &e->scene->scene, "linear", NULL, &error) != ACCEL_OK) {
         return false;
     }
-    make_rays(e, &subject, PILOT);
+    if (e->judge == ACCEL_BY_ORACLE && !suits_oracle(e->scene, e->linear)) {
+        e->judge = ACCEL_BY_LINEAR;
+        e->peers = false;
+    }
+    make_rays(e, &subject, scene_size(e->scene) > LARGE_SCENE ? SHORT_PILOT : PILOT);
     make_rays(e, &subject, choose_count(e, seconds, least, most));
     return judge_rays(e, &subject);
 }
@@ -233,7 +314,9 @@ void accel_exam_free(accel_exam *e)
     free(e->scene);
     free(e->right);
     free(e->single);
+    free(e->exact);
     accel_free_set(&e->set);
+    accel_free_set(&e->peer_set);
 }
 
 /* --------------------------------------------------------------- contenders ---- */
@@ -278,6 +361,9 @@ static bool is_right(const accel_exam *e, const accel_contender *c, size_t i)
     switch (e->judge) {
     case ACCEL_BY_HIT:
         return same && found;
+    case ACCEL_BY_INTEGERS:
+        return same && found == (e->exact[i].under != 0) &&
+               (!found || crossing_is(&e->exact[i], &hit));
     case ACCEL_BY_ORACLE:
         return same && oracle_agrees(&e->right[i], found, &hit);
     default:
@@ -287,12 +373,21 @@ static bool is_right(const accel_exam *e, const accel_contender *c, size_t i)
 
 /* One answer of a peer. */
 static bool names_right(const accel_exam *e, const struct judgement *right,
-                        const accel_contender *c, size_t i)
+                        const accel_contender *peer, size_t i)
 {
-    const accel_id got = c->ask(c, &e->set, i);
+    const accel_ray *ray = &e->set.rays[i];
+    if (!is_forward(ray)) {
+        return true;
+    }
+    const accel_id none = {ACCEL_NONE, ACCEL_NONE};
+    const accel_id got = is_in_range(ray) ? peer->ask(peer, &e->set, i) : none;
     const bool found = got.geom != ACCEL_NONE;
     if (e->judge == ACCEL_BY_HIT) {
         return found;
+    }
+    if (e->judge == ACCEL_BY_INTEGERS) {
+        const struct crossing *c = &e->exact[i];
+        return found == (c->under != 0) && (!found || (got.geom == c->geom && got.prim == c->prim));
     }
     if (right[i].verdict != HIT) {
         return right[i].verdict == UNDECIDED || !found;

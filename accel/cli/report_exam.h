@@ -15,19 +15,29 @@
 #define ACCEL_CLI_REPORT_EXAM_H
 
 #include "bench.h"
+#include "catalogue.h"
+#include "lattice.h"
 #include "leaks.h"
 #include "oracle.h"
-
-#include "catalogue.h"
+#include "report.h"
 
 /* Who says what is right. */
-typedef enum accel_judge { ACCEL_BY_ORACLE, ACCEL_BY_HIT, ACCEL_BY_LINEAR } accel_judge;
+typedef enum accel_judge {
+    ACCEL_BY_ORACLE,
+    ACCEL_BY_HIT,
+    ACCEL_BY_LINEAR,
+    ACCEL_BY_INTEGERS
+} accel_judge;
+
+extern const char *const accel_judge_names[];
 
 /* What to ask on. */
 typedef struct accel_exam_subject {
     const struct scene_maker *maker; /* of the scene; NULL: leaks */
     const struct ray_family *family; /* of rays at it */
     const struct leak_mesh *leaks;   /* scene and rays that must hit; NULL: maker */
+    bool integers;                   /* rays of cases/lattice.h, judged by integers */
+    uint64_t seed;                   /* 0 stands for 1 */
 } accel_exam_subject;
 
 /* Rays on one scene, and what is right. */
@@ -38,10 +48,12 @@ typedef struct accel_exam {
     accel_ray_set set;        /* the rays; hits: what linear answers */
     struct judgement *right;  /* by the oracle, for each ray, or NULL */
     struct judgement *single; /* the same of what peers are given, or NULL */
+    struct crossing *exact;   /* by integers, or NULL; under is 0 where nothing is hit */
     size_t decided;           /* rays that count */
-    size_t decided_single;    /* of those of peers */
+    size_t decided_peer;      /* of them, those that a peer can be asked */
+    size_t decided_single;    /* the same, of what peers are given */
+    accel_ray_set peer_set;   /* rays within a peer's range: what it is timed on */
     bool peers;               /* Embree knows all of its primitives */
-    bool broken;              /* memory ran out */
 } accel_exam;
 
 /* Makes scene and rays and has them judged; takes about `seconds`: the count of rays, from `least`
@@ -54,10 +66,26 @@ void accel_exam_free(accel_exam *exam);
 /* A structure of ours as a contender; it owns the structure. */
 accel_contender accel_exam_ours(accel *a, const char *config);
 
-/* Wrong answers of a contender to the rays that count. */
+/* Wrong answers of a contender to the rays that count: decided, or decided_peer of a peer. A ray
+ * beyond a peer's range gets no answer from it: wrong where something is to be hit. */
 size_t accel_exam_wrong(const accel_exam *exam, const accel_contender *c);
 
 /* The same by what peers are given, of decided_single. */
 size_t accel_exam_wrong_single(const accel_exam *exam, const accel_contender *c);
+
+/* All forms of all kinds, and the peers where they know the scene. */
+typedef struct accel_field {
+    accel_contender at[ACCEL_MOST_FORMS + ACCEL_MOST_PEERS];
+    double ns[ACCEL_MOST_FORMS + ACCEL_MOST_PEERS]; /* for each ray, median of the turns */
+    size_t count;
+} accel_field;
+
+/* Builds them over the exam's scene. False: said. */
+bool accel_field_build(accel_field *field, accel_reporting *r, const accel_exam *exam);
+
+/* Times them, in turns, on the first rays. */
+void accel_field_time(accel_field *field, const accel_exam *exam);
+
+void accel_field_free(accel_field *field);
 
 #endif

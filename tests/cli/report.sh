@@ -42,6 +42,16 @@ for each in $kinds; do
     [ "$(grep -c ",$each,0,given," page/exact.csv)" = 12 ] || fail "$each is not on every scene"
 done
 
+has cases.csv "test,case,scene,judge,contender,peer,rays,decided,wrong,decided_rounded,wrong_rounded,ns_per_ray,cost" "$((60 * forms))"
+awk -F, 'NR > 1 && $6 == 0 && ($9 != 0 || $7 == 0) { exit 1 }' page/cases.csv ||
+    fail "an answer of ours is wrong in cases.csv, or none was judged"
+for test in G2 G3 G4 G5 G7 G8 G9 G10 G11 G12 G13 G14 G15 G16 R1 R2 R3 R4 R5 R6; do
+    for each in $kinds; do
+        grep -qE "^$test,.*,$each,0," page/cases.csv || fail "$test is not asked of $each"
+    done
+    grep -q "<th colspan=\"8\">$test: " page/index.html || fail "$test is not in the table"
+done
+
 timed=$(grep -vcx linear <<<"$kinds")
 [ "$timed" -gt 1 ] || timed=$(wc -l <<<"$kinds") # without another kind linear is timed as well
 has light.csv "scene,estimator,radius,photons,seeds,structure,build_seconds,photon_seconds,estimate_seconds,seconds,rmse,bias,bias_seen,floor,hash" "$((2 * 2 * 4 * timed))"

@@ -1,0 +1,308 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * Stiff and extreme cases: every scene of the catalogue from G2 on and every family of rays, asked
+ * of every form of ours, of Embree and of stock POV-Ray where they know the scene.
+ *
+ * The scenes and rays are those of the tests, from the same generators, in the same counts where
+ * the time allows.
+ */
+#include "report_cases.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static const char columns[] =
+    "test,case,scene,judge,contender,peer,rays,decided,wrong,decided_rounded,wrong_rounded,"
+    "ns_per_ray,cost";
+
+/* Rays for a case; POV-Ray is asked about scenes up to this size. */
+enum { LEAST_RAYS = 16, MOST_RAYS = 20000, MOST_VARIANTS = 12, POVRAY_SIZE = 2500 };
+
+/* The tables under way. */
+typedef struct cases {
+    accel_reporting *r;
+    FILE *csv;
+    accel_case rows[ACCEL_MOST_CASES];
+    size_t count;
+    accel_field generic; /* on the generic scene: names and times only */
+    accel_field field;   /* on the present one */
+    /* sums over the variants of the present case */
+    size_t wrong[ACCEL_MOST_FORMS + ACCEL_MOST_PEERS];
+    size_t single[ACCEL_MOST_FORMS + ACCEL_MOST_PEERS];
+    double ns[ACCEL_MOST_FORMS + ACCEL_MOST_PEERS];
+    bool povray; /* it is installed */
+} cases;
+
+/* ------------------------------------------------------------------ one case ---- */
+
+/* Adds the answers of one variant. */
+static void add_variant(cases *x, accel_case *row, const accel_exam *e)
+{
+    row->judge = e->judge;
+    row->rays += e->set.count;
+    row->decided += e->decided;
+    row->decided_peer += e->decided_peer;
+    row->decided_single += e->peers ? e->decided_single : 0;
+    row->peers = e->peers;
+    for (size_t c = 0; c < x->field.count; c++) {
+        x->wrong[c] += accel_exam_wrong(e, &x->field.at[c]);
+        if (x->field.at[c].peer) {
+            x->single[c] += accel_exam_wrong_single(e, &x->field.at[c]);
+        }
+        x->ns[c] += x->field.ns[c] * (double)e->set.count;
+    }
+}
+
+static int compare(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* The time of each form over its time on the generic scene. */
+static void compare_cost(const cases *x, accel_case *row)
+{
+    double cost[ACCEL_MOST_FORMS];
+    size_t count = 0;
+    for (size_t c = 0; c < x->field.count; c++) {
+        if (x->field.at[c].peer || strcmp(x->field.at[c].name, "linear") == 0) {
+            continue;
+        }
+        cost[count] = x->ns[c] / (double)(row->rays + 1) / x->generic.ns[c];
+        if (cost[count] > row->cost_worst) {
+            row->cost_worst = cost[count];
+            snprintf(row->worst, sizeof row->worst, "%s", x->field.at[c].name);
+        }
+        count++;
+    }
+    qsort(cost, count, sizeof cost[0], compare);
+    row->cost_middle = count > 0 ? cost[count / 2] : 0.0;
+}
+
+/* Fewest of the two builds of Embree, fast or robust. */
+static size_t fewest(const cases *x, const size_t *wrong, bool robust)
+{
+    size_t least = SIZE_MAX;
+    for (size_t c = 0; c < x->field.count; c++) {
+        const accel_contender *at = &x->field.at[c];
+        if (at->peer && (strstr(at->name, "robust") != NULL) == robust) {
+            least = wrong[c] < least ? wrong[c] : least;
+        }
+    }
+    return least == SIZE_MAX ? 0 : least;
+}
+
+static void write_rows(const cases *x, const accel_case *row)
+{
+    for (size_t c = 0; c < x->field.count; c++) {
+        const accel_contender *at = &x->field.at[c];
+        const double ns = x->ns[c] / (double)(row->rays + 1);
+        fprintf(x->csv, "%s,%s,%s,%s,%s,%d,%zu,%zu,%zu,%zu,%zu,%.1f,%.3f\n", row->test, row->name,
+                row->scene != NULL ? row->scene : row->name, accel_judge_names[row->judge],
+                at->name, at->peer, row->rays, at->peer ? row->decided_peer : row->decided,
+                x->wrong[c], at->peer ? row->decided_single : row->decided,
+                at->peer ? x->single[c] : x->wrong[c], ns, ns / x->generic.ns[c]);
+    }
+    if (row->povray.ran) {
+        const accel_povray *p = &row->povray;
+        const size_t wrong = p->lost + p->false_hits + p->off;
+        fprintf(x->csv, "%s,%s,%s,%s,POV-Ray,1,%zu,%zu,%zu,%zu,%zu,0,0\n", row->test, row->name,
+                row->name, accel_judge_names[row->judge], p->asked, p->asked, wrong, p->asked,
+                wrong);
+    }
+}
+
+static void end_case(cases *x, accel_case *row)
+{
+    for (size_t c = 0; c < x->field.count; c++) {
+        if (!x->field.at[c].peer) {
+            row->forms++;
+            row->wrong += x->wrong[c];
+        }
+    }
+    if (row->peers) {
+        row->fast = fewest(x, x->wrong, false);
+        row->robust = fewest(x, x->wrong, true);
+        row->fast_single = fewest(x, x->single, false);
+        row->robust_single = fewest(x, x->single, true);
+    }
+    x->r->judged += row->rays * row->forms;
+    x->r->wrong += row->wrong;
+    compare_cost(x, row);
+    write_rows(x, row);
+}
+
+/* The first variant of a scene with the mix of rays. Without any time, closed meshes alone: to
+ * start POV-Ray takes longer than all the rest. */
+static bool suits_povray(const accel_case *row, const accel_exam *e, uint64_t seed, double seconds)
+{
+    const uint64_t size = scene_size(e->scene);
+    return row->scene == NULL && seed == 1 && e->judge != ACCEL_BY_LINEAR && size > 0 &&
+           size <= POVRAY_SIZE && (seconds > 0.0 || strcmp(row->test, "G12") == 0);
+}
+
+/* One variant of a case; the first one is asked of POV-Ray as well. */
+static bool run_variant(cases *x, accel_case *row, accel_exam_subject on, double seconds,
+                        size_t most)
+{
+    accel_exam e;
+    bool fine = accel_exam_make(&e, on, seconds, most < LEAST_RAYS ? most : LEAST_RAYS, most);
+    if (!fine) {
+        accel_complain(x->r->command, "no memory for the rays of %s; nothing was written",
+                       row->name);
+    }
+    fine = fine && accel_field_build(&x->field, x->r, &e);
+    if (fine) {
+        accel_field_time(&x->field, &e);
+        add_variant(x, row, &e);
+        if (x->povray && suits_povray(row, &e, on.seed, seconds)) {
+            accel_povray_ask(x->r, &e, seconds < 1.0 ? 200 : 1000, &row->povray);
+        }
+    }
+    accel_exam_free(&e);
+    return fine;
+}
+
+static bool run_case(cases *x, accel_case row, accel_exam_subject on, uint32_t variants,
+                     double seconds, size_t most)
+{
+    if (x->count == ACCEL_MOST_CASES) {
+        return true;
+    }
+    memset(x->wrong, 0, sizeof x->wrong);
+    memset(x->single, 0, sizeof x->single);
+    memset(x->ns, 0, sizeof x->ns);
+    accel_progress_show(&x->r->progress, row.name, -1.0);
+    const double end = accel_seconds() + seconds;
+    const uint32_t tries = variants > MOST_VARIANTS ? MOST_VARIANTS : variants > 0 ? variants : 1;
+    for (uint32_t i = 0; i < tries && (i == 0 || accel_seconds() < end); i++) {
+        accel_field_free(&x->field);
+        on.seed = i + 1;
+        if (!run_variant(x, &row, on, seconds / tries, most)) {
+            return false;
+        }
+    }
+    end_case(x, &row);
+    accel_field_free(&x->field);
+    x->rows[x->count++] = row;
+    return true;
+}
+
+/* ----------------------------------------------------------------- all cases ---- */
+
+/* The times that costs are relative to. */
+static bool run_generic(cases *x, double seconds)
+{
+    accel_exam e;
+    const accel_exam_subject on = {.maker = scene_maker_find("soup"), .family = ray_families};
+    bool fine = accel_exam_make(&e, on, seconds, 200, 2000);
+    if (!fine) {
+        accel_complain(x->r->command, "no memory; nothing was written");
+    }
+    fine = fine && accel_field_build(&x->generic, x->r, &e);
+    if (fine) {
+        accel_field_time(&x->generic, &e);
+        accel_field_free(&x->generic);
+    }
+    accel_exam_free(&e);
+    return fine;
+}
+
+static bool is_listed(const struct scene_maker *m)
+{
+    return strcmp(m->test, "G1") != 0;
+}
+
+/* Scenes, families on each of their scenes, the lattice by integers, closed meshes. */
+static size_t count_cases(void)
+{
+    size_t count = 3;
+    for (const struct scene_maker *m = scene_makers; m->name != NULL; m++) {
+        count += is_listed(m);
+    }
+    for (const struct ray_family *f = ray_families + 1; f->name != NULL; f++) {
+        for (size_t i = 0; f->scenes[i] != NULL; i++) {
+            count++;
+        }
+    }
+    return count;
+}
+
+static size_t at_most(uint32_t rays)
+{
+    return rays == 0 || rays > MOST_RAYS ? MOST_RAYS : rays;
+}
+
+static bool run_scenes(cases *x, double each)
+{
+    bool fine = true;
+    for (const struct scene_maker *m = scene_makers; fine && m->name != NULL; m++) {
+        if (is_listed(m)) {
+            fine =
+                run_case(x, (accel_case){.test = m->test, .name = m->name, .meaning = m->meaning},
+                         (accel_exam_subject){.maker = m, .family = ray_families}, m->variants,
+                         each, at_most(m->rays));
+        }
+    }
+    return fine;
+}
+
+static bool run_families(cases *x, double each)
+{
+    bool fine = true;
+    for (const struct ray_family *f = ray_families + 1; fine && f->name != NULL; f++) {
+        for (size_t i = 0; fine && f->scenes[i] != NULL; i++) {
+            fine = run_case(
+                x,
+                (accel_case){
+                    .test = f->test, .name = f->name, .meaning = f->meaning, .scene = f->scenes[i]},
+                (accel_exam_subject){.maker = scene_maker_find(f->scenes[i]), .family = f}, 0, each,
+                at_most(f->rays));
+        }
+    }
+    return fine;
+}
+
+/* Judges that need rays of their own. */
+static bool run_special(cases *x, double each)
+{
+    static const char *const names[] = {"closed-mesh", "closed-mesh-1e5"};
+    static const char *const meanings[] = {"closed sphere from inside, at vertices and edges",
+                                           "the same, 1e5 off the origin"};
+    bool fine =
+        run_case(x,
+                 (accel_case){.test = "G11",
+                              .name = "lattice-integers",
+                              .meaning = "integer lattice, judged by integers alone"},
+                 (accel_exam_subject){.maker = scene_maker_find("lattice"), .integers = true}, 0,
+                 each, MOST_RAYS);
+    for (size_t i = 0; fine && i < 2; i++) {
+        fine = run_case(x, (accel_case){.test = "G12", .name = names[i], .meaning = meanings[i]},
+                        (accel_exam_subject){.leaks = &leak_balls[i]}, 0, each, MOST_RAYS);
+    }
+    return fine;
+}
+
+bool accel_report_cases(accel_reporting *r, double seconds)
+{
+    cases *x = calloc(1, sizeof *x);
+    FILE *csv = accel_report_csv(r, ACCEL_CASES_CSV, columns);
+    if (x == NULL || csv == NULL) {
+        free(x);
+        return csv == NULL || accel_complain(r->command, "no memory; nothing was written") == 0;
+    }
+    x->r = r;
+    x->csv = csv;
+    x->povray = accel_povray_version(r) != NULL;
+    const double each = seconds / (double)(count_cases() + 1);
+    bool fine = run_generic(x, each) && run_scenes(x, each) && run_special(x, each) &&
+                run_families(x, each);
+    accel_field_free(&x->field);
+    if (!fine) {
+        fclose(csv);
+    } else if ((fine = accel_report_csv_close(r, csv, ACCEL_CASES_CSV))) {
+        accel_cases_page(r, x->rows, x->count);
+    }
+    free(x);
+    return fine;
+}

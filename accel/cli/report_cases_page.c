@@ -1,0 +1,192 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * The table of stiff and extreme cases. What other programs did wrong is told by their own sources
+ * and reports and marked so; every count is measured.
+ */
+#include "report_cases.h"
+
+#include <string.h>
+
+/* What a test is about, and what is known from elsewhere. */
+static const struct topic {
+    const char *test, *title;
+    const char *told; /* with its source */
+} topics[] = {
+    {"G2", "sizes from 1e-12 to 1",
+     "tinybvh's double BVH drops triangles whose determinant is below 1e-7: with a direction of "
+     "length 1 those with edges below about 3e-4 (tiny_bvh.h:8183)"},
+    {"G3", "scales",
+     "POV-Ray: a triangle nearer than 1e-6 or farther than 1e7 is a miss "
+     "(shape/mesh.cpp:1059)"},
+    {"G4", "far from the origin",
+     "false hits at huge coordinates (embree#416); POV-Ray's boxes and box rays are float "
+     "(bounding/boundingbox.h:83)"},
+    {"G5", "slivers, grazing rays",
+     "a hit at t = 12,291 on a triangle whose corners are all nearer than 600 (embree#387)"},
+    {"G7", "degenerate and invalid primitives",
+     "Embree skips them silently (rtcCommitScene.md:43); NaN in a BVH: endless loop "
+     "(devil_ray#62)"},
+    {"G8", "coincident primitives",
+     "recursion until the stack or 34 GB are gone (jbehley/octree#6, mlpack#4020); 256 copies "
+     "overflow a count (pbrt-v2#33)"},
+    {"G9", "one centre, nested", "same centroids blow up builders (hoverinc#81, pbrt-v3#182)"},
+    {"G10", "geometric series",
+     "a tree 256 deep on a stack of 64 (tinybvh PR#192; madmann91/bvh#108)"},
+    {"G11", "faces on planes of a lattice",
+     "-0.0 picks the wrong octant (tinybvh PR#282); 0 times infinity on a box's face "
+     "(NVIDIA/warp#1530)"},
+    {"G12", "closed meshes and fans",
+     "leaks at a vertex in robust mode, agreed (embree#174, #181)"},
+    {"G13", "a teapot in a stadium", "a uniform grid puts it all into one cell"},
+    {"G14", "huge and tiny, unbounded",
+     "POV-Ray: beyond 1e7 nothing is hit, above 2e10 nothing is bounded (configcore.h:153)"},
+    {"G15", "ties",
+     "POV-Ray: the first visited wins (bounding/boundingbox.cpp:473); OptiX: ids at "
+     "shared edges vary from run to run (forum 110450)"},
+    {"G16", "nothing, one, two of the same", "empty scenes crash builders (tinybvh#111, #274)"},
+    {"R1", "zeros, subnormal, huge, infinite, NaN",
+     "POV-Ray's BSP: an axis-parallel ray in a splitting plane ends the walk "
+     "(bounding/bsptree.cpp:132)"},
+    {"R2", "origins on what is to be hit",
+     "0 times infinity in the slab test (madmann91/bvh#9, #20)"},
+    {"R3", "interval ends at a hit",
+     "Embree: no guarantees at tnear and tfar (rtcIntersect1.md:57)"},
+    {"R4", "directions of any length", "Radiance takes a length below 1e-7 for 0 (raytrace.c:610)"},
+    {"R5", "rays that leave a hit",
+     "self-hits and offsets against them (povray#121, mitsuba3 "
+     "PR#1871)"},
+    {"R6", "host objects that report oddly", "outside what Embree and POV-Ray promise"},
+    {"mix", "triangles, spheres, objects together", "-"},
+};
+
+enum { TOPICS = sizeof topics / sizeof topics[0] };
+
+static void write_share(accel_reporting *r, size_t wrong, size_t n)
+{
+    if (n == 0) {
+        fprintf(r->page, "<td class=\"n\">-</td>");
+    } else {
+        const double share = 100.0 * (double)wrong / (double)n;
+        fprintf(r->page, "<td class=\"n %s\">%zu <small>(%.*f %%)</small></td>",
+                wrong > 0 ? "bad" : "good", wrong, share >= 1.0 ? 0 : 2, share);
+    }
+}
+
+static void write_povray(accel_reporting *r, const accel_povray *p)
+{
+    if (!p->ran) {
+        fprintf(r->page, "<td class=\"n\">-</td>");
+        return;
+    }
+    const size_t wrong = p->lost + p->false_hits + p->off;
+    fprintf(r->page, "<td class=\"n %s\">%zu of %zu", wrong > 0 ? "bad" : "good", wrong, p->asked);
+    if (wrong > 0) {
+        fprintf(r->page, "<br/><small>%zu lost, %zu false, %zu off</small>", p->lost, p->false_hits,
+                p->off);
+    }
+    fprintf(r->page, "</td>");
+}
+
+static void write_row(accel_reporting *r, const accel_case *c)
+{
+    fprintf(r->page, "<tr><td><b>%s</b>", c->name);
+    if (c->scene != NULL) {
+        fprintf(r->page, " on %s", c->scene);
+    }
+    fprintf(r->page, "<br/><small>");
+    accel_page_escaped(r, c->meaning);
+    fprintf(r->page, "</small></td><td class=\"n\">%zu<br/><small>%s</small></td>", c->decided,
+            accel_judge_names[c->judge]);
+    write_share(r, c->fast, c->peers ? c->decided_peer : 0);
+    write_share(r, c->robust, c->peers ? c->decided_peer : 0);
+    write_share(r, c->robust_single, c->peers ? c->decided_single : 0);
+    write_povray(r, &c->povray);
+    fprintf(r->page, "<td class=\"n %s\">%zu</td>", c->wrong > 0 ? "bad" : "good", c->wrong);
+    fprintf(r->page, "<td class=\"n\">%.2f<br/><small>%.1f %s</small></td></tr>\n", c->cost_middle,
+            c->cost_worst, c->worst);
+}
+
+/* A topic and its cases; nothing where there are none. */
+static size_t write_topic(accel_reporting *r, const struct topic *t, const accel_case *rows,
+                          size_t count)
+{
+    size_t written = 0;
+    for (size_t i = 0; i < count; i++) {
+        if (strcmp(rows[i].test, t->test) != 0) {
+            continue;
+        }
+        if (written++ == 0) {
+            fprintf(r->page, "<tr><th colspan=\"8\">%s: %s <span class=\"told\">told: ", t->test,
+                    t->title);
+            accel_page_escaped(r, t->told);
+            fprintf(r->page, "</span></th></tr>\n");
+        }
+        write_row(r, &rows[i]);
+    }
+    return written;
+}
+
+/* Sums over all cases, for the words above the table. */
+typedef struct totals {
+    size_t asked, wrong;         /* ours */
+    size_t cases, fast, robust;  /* asked of Embree; in how many one answer was wrong */
+    size_t povray, povray_wrong; /* the same of POV-Ray */
+    const accel_case *dearest;   /* the most that a case costs us */
+} totals;
+
+static totals sum_up(const accel_case *rows, size_t count)
+{
+    totals t = {.dearest = rows};
+    for (size_t i = 0; i < count; i++) {
+        const accel_case *c = &rows[i];
+        t.asked += c->rays * c->forms;
+        t.wrong += c->wrong;
+        t.cases += c->peers;
+        t.fast += c->peers && c->fast > 0;
+        t.robust += c->peers && c->robust > 0;
+        t.povray += c->povray.ran;
+        t.povray_wrong +=
+            c->povray.ran && c->povray.lost + c->povray.false_hits + c->povray.off > 0;
+        t.dearest = c->cost_worst > t.dearest->cost_worst ? c : t.dearest;
+    }
+    return t;
+}
+
+void accel_cases_page(accel_reporting *r, const accel_case *rows, size_t count)
+{
+    const totals t = sum_up(rows, count);
+    const char *version = accel_povray_version(r);
+    accel_page_title(r, "cases", "Stiff and extreme cases");
+    accel_page_text(
+        r,
+        "Scenes and rays made to break ray tracers; the names G2 to R6 are those of the tests, "
+        "which "
+        "use the same generators. %zu answers of ours were judged here, over all kinds and forms: "
+        "<b>%zu were wrong</b>. Embree, in single precision, was asked where it knows the scene: "
+        "in fast mode it is wrong somewhere in %zu of %zu cases, in robust mode in %zu. %s shot "
+        "the "
+        "same rays in %zu cases and is wrong in %zu; more than a thousandth off in distance counts "
+        "as wrong for it.",
+        t.asked, t.wrong, t.fast, t.cases, t.robust,
+        version != NULL ? version : "POV-Ray (not installed on this machine)", t.povray,
+        t.povray_wrong);
+    accel_page_text(
+        r,
+        "<b>What it costs us:</b> time per ray over that on the generic scene of 1,000 "
+        "triangles with the same mix of rays, the median of our forms, and the worst "
+        "form. <b>Where we lose:</b> the dearest is %s at %.0f times, for "
+        "<code>%s</code>. A dash: not asked, as the scene holds host objects or invalid "
+        "primitives, or is too large for POV-Ray's scene language. What is told in "
+        "italics is from the named source, not measured. The figures of every form: "
+        "<a href=\"%s\">%s</a>.",
+        t.dearest->name, t.dearest->cost_worst, t.dearest->worst, ACCEL_CASES_CSV, ACCEL_CASES_CSV);
+    fprintf(r->page,
+            "<table><tr><th>case</th><th class=\"n\">rays decided<br/>by</th>"
+            "<th class=\"n\">Embree fast: wrong</th><th class=\"n\">Embree robust: wrong</th>"
+            "<th class=\"n\">robust, of its rounded input</th><th class=\"n\">POV-Ray: wrong</th>"
+            "<th class=\"n\">ours: wrong</th><th class=\"n\">cost<br/>worst</th></tr>\n");
+    for (size_t i = 0; i < TOPICS; i++) {
+        write_topic(r, &topics[i], rows, count);
+    }
+    fprintf(r->page, "</table>\n");
+}
