@@ -10,8 +10,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* kinds.h holds KIND(name) for each kind that is compiled in, linear first and auto last. A new kind
- * is its file and one line in accel/CMakeLists.txt, which makes kinds.h. */
+/* kinds.h holds KIND(name) for each kind that is compiled in, linear first and auto last. A new
+ * kind is its file and one line in accel/CMakeLists.txt, which makes kinds.h. */
 #define KIND(name) extern const struct accel_kind name##_kind;
 #include "kinds.h"
 #undef KIND
@@ -76,19 +76,32 @@ bool build_no_memory(struct build *build)
     return false;
 }
 
-void build_note(struct build *build, const char *format, ...)
+__attribute__((format(printf, 2, 0))) static void add_note(accel_info *info, const char *format,
+                                                           va_list arguments)
 {
-    accel_info *info = &build->a->info;
     if (info->note_count == ACCEL_INFO_NOTES)
         return;
-    va_list arguments;
-    va_start(arguments, format);
     vsnprintf(info->notes[info->note_count], sizeof info->notes[0], format, arguments);
-    va_end(arguments);
     for (uint32_t i = 0; i < info->note_count; i++)
         if (strcmp(info->notes[i], info->notes[info->note_count]) == 0)
             return;
     info->note_count++;
+}
+
+void build_note(struct build *build, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    add_note(&build->a->info, format, arguments);
+    va_end(arguments);
+}
+
+void info_note(accel_info *info, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    add_note(info, format, arguments);
+    va_end(arguments);
 }
 
 /* Lets a kind that stands for others pick one, and turns the structure into that, with default
@@ -198,6 +211,8 @@ void accel_describe(const accel *a, accel_info *info)
     *info = a->info;
     info->bytes = a->memory.bytes;
     info->peak_bytes = a->memory.peak;
+    if (a->kind->describe && a->prims.bounded.count > 0)
+        a->kind->describe(a, info);
 }
 
 bool accel_padded_box(const accel *a, accel_id id, accel_box *box)

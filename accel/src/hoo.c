@@ -3,11 +3,15 @@
  * hoo: the hierarchy of octrees of Revelles, Aguilera, Aguado, Lastra, Garcia and Montes, "A
  * Spatial Representation for Ray-Scene Intersection Test Improvement in Complex Scenes": clusters
  * (cluster.h), an octree for each (octree.h), neighbours joined pairwise into a balanced binary
- * tree (hoo_pairing.h). The tree is walked nearest child first; clusters may overlap, so the walk goes
- * on until all that is left begins after the best hit.
+ * tree (hoo_pairing.h). The tree is walked nearest child first; clusters may overlap, so the walk
+ * goes on until all that is left begins after the best hit.
  *
  * A cluster of few primitives is a list: its octree's root is a leaf. Where the scene is one
  * cluster, there is no tree above, and hoo is an octree over the scene's tight box.
+ *
+ * With lazy=on an octree is built when the first ray enters its cluster's box, one over many
+ * primitives in parts (octree_later.h): the same octrees, but only where rays go. Clusters and the
+ * tree above are built first, as rays find the octrees through them.
  *
  * Invariant: every bounded primitive is in exactly one cluster; a cluster's box contains its padded
  * boxes, a node's boxes contain the clusters below.
@@ -16,7 +20,7 @@
  * cluster needs in all the others. Bad at: scenes that are one cluster gain nothing.
  */
 #include "cluster.h"
-#include "octree.h"
+#include "octree_later.h"
 #include "hoo_pairing.h"
 
 #include <stdlib.h>
@@ -24,14 +28,18 @@
 struct hoo_kind {
     accel base;
     struct clustering clustering;
-    ARRAY_OF(struct octree) trees; /* by cluster */
-    struct octree_pool pool;       /* of all */
-    struct boxtree top;            /* over the clusters; no nodes if there is but one */
+    ARRAY_OF(struct octree) trees;       /* by cluster */
+    struct octree_pool pool;             /* of all */
+    struct octree_lazy lazy;             /* how octrees are built that are built later */
+    ARRAY_OF(struct octree_later) later; /* by cluster; with lazy=on, instead of trees and pool */
+    struct boxtree top;                  /* over the clusters; no nodes if there is but one */
 };
 
-enum { FORM, LEAF, DEPTH, CONNECTIVITY, OCTAVES };
+enum { FORM, LEAF, DEPTH, CONNECTIVITY, OCTAVES, LAZY, PART };
 
 static const char *const forms[] = {"classic", NULL};
+
+static const char *const switches[] = {"off", "on", NULL};
 
 static const accel_option options[] = {
     [FORM] = {.key = "form", .meaning = "how cells are laid out", .words = forms},
@@ -39,6 +47,10 @@ static const accel_option options[] = {
     [DEPTH] = OCTREE_DEPTH_OPTION,
     [CONNECTIVITY] = CLUSTER_CONNECTIVITY_OPTION,
     [OCTAVES] = CLUSTER_OCTAVES_OPTION,
+    [LAZY] = {.key = "lazy",
+              .meaning = "on: an octree is built when the first ray enters its cluster",
+              .words = switches},
+    [PART] = OCTREE_PART_OPTION,
 };
 
 static bool find_clusters(struct build *build, struct hoo_kind *h)
@@ -48,11 +60,35 @@ static bool find_clusters(struct build *build, struct hoo_kind *h)
     return cluster_scene(build, &h->clustering, rule, 0.0, 1.0);
 }
 
+static struct octree_rule octree_rule(const struct hoo_kind *h)
+{
+    return (struct octree_rule){h->base.option[LEAF], h->base.option[DEPTH]};
+}
+
+/* What is left of building octrees where rays do it. */
+static bool leave_octrees(struct build *build, struct hoo_kind *h)
+{
+    const struct clustering *c = &h->clustering;
+    if (!array_extend(&h->base.memory, &h->later, c->clusters.count))
+        return build_no_memory(build);
+    for (size_t i = 0; i < c->clusters.count; i++) {
+        const struct cluster *cluster = &c->clusters.at[i];
+        h->later.at[i] = octree_for_later(c->order.at + cluster->first, cluster->count,
+                                          &cluster->box, octree_rule(h));
+    }
+    h->lazy = (struct octree_lazy){
+        .a = &h->base, .rule = octree_rule(h), .whole = (uint32_t)h->base.option[PART]};
+    fegetenv(&h->lazy.environment);
+    return true;
+}
+
 static bool build_octrees(struct build *build, struct hoo_kind *h)
 {
     const struct clustering *c = &h->clustering;
-    const struct octree_rule rule = {h->base.option[LEAF], h->base.option[DEPTH]};
+    const struct octree_rule rule = octree_rule(h);
     build_phase(build, "octrees");
+    if (h->base.option[LAZY] > 0)
+        return leave_octrees(build, h);
     if (!array_extend(&h->base.memory, &h->trees, c->clusters.count))
         return build_no_memory(build);
     for (size_t i = 0; i < c->clusters.count; i++) {
@@ -114,13 +150,45 @@ static void visit(const accel *a, struct query *q, struct boxtree_child leaf)
     octree_walk(&h->pool, &h->trees.at[leaf.first], q);
 }
 
+static void visit_lazy(const accel *a, struct query *q, struct boxtree_child leaf)
+{
+    const struct hoo_kind *h = (const struct hoo_kind *)a;
+    octree_walk_lazy(&h->lazy, &h->later.at[leaf.first], q);
+}
+
 static void walk(const accel *a, struct query *q)
 {
     const struct hoo_kind *h = (const struct hoo_kind *)a;
-    if (h->trees.count == 1)
+    if (h->later.count == 1)
+        octree_walk_lazy(&h->lazy, &h->later.at[0], q);
+    else if (h->later.count > 1)
+        boxtree_walk(a, h->top.nodes.at, q, visit_lazy);
+    else if (h->trees.count == 1)
         octree_walk(&h->pool, &h->trees.at[0], q);
     else
         boxtree_walk(a, h->top.nodes.at, q, visit);
+}
+
+/* Adds what rays have built. */
+static void describe_lazy(const accel *a, accel_info *info)
+{
+    const struct hoo_kind *h = (const struct hoo_kind *)a;
+    struct octree_census census = {.nodes = 0};
+    for (size_t i = 0; i < h->later.count; i++)
+        info->unbuilt_clusters += !octree_count(&h->later.at[i], &census);
+    info->unbuilt_primitives = census.unbuilt;
+    info->lazy_bytes = census.bytes;
+    info->nodes += census.nodes;
+    info->leaves += census.leaves;
+    info->references += census.references;
+    info->depth += census.depth;
+    info->bytes += census.bytes;
+    if (census.refused)
+        octree_note_refused(info);
+    if (h->later.count > 0)
+        info_note(info, "lazy: %u of %zu clusters and %llu of %zu primitives are not built",
+                  info->unbuilt_clusters, h->later.count, (unsigned long long)census.unbuilt,
+                  h->clustering.order.count);
 }
 
 /* ---------------------------------------------------------------------- validate ---- */
@@ -144,7 +212,9 @@ static bool check_cluster(const struct hoo_kind *h, size_t i, bool *seen, accel_
             return broken(error, "a wrong, repeated or misplaced id in cluster", i);
         seen[ids[j]] = true;
     }
-    return octree_validate(&h->base, &h->pool, &h->trees.at[i], ids, cluster->count, error);
+    return h->later.count > 0
+               ? octree_validate_lazy(&h->base, &h->later.at[i], error)
+               : octree_validate(&h->base, &h->pool, &h->trees.at[i], ids, cluster->count, error);
 }
 
 /* Every bounded id is in exactly one cluster, and every octree is right. */
@@ -157,7 +227,7 @@ static bool check_clusters(const struct hoo_kind *h, accel_error *error)
         error_set(error, ACCEL_NO_MEMORY, "validate: no memory for %u marks", h->base.prims.count);
         return false;
     }
-    for (size_t i = 0; fine && i < h->trees.count; i++)
+    for (size_t i = 0; fine && i < h->clustering.clusters.count; i++)
         fine = check_cluster(h, i, seen, error);
     for (size_t i = 0; fine && i < bounded->count; i++)
         fine = seen[bounded->at[i]] || broken(error, "no cluster holds id", bounded->at[i]);
@@ -174,8 +244,8 @@ static bool check_child(const struct hoo_kind *h, const accel_box *box, struct b
     if (depth > h->top.depth || depth > BOXTREE_MAX_DEPTH)
         return broken(error, "the top tree is too deep, at", depth);
     if (child.count > 0) {
-        if (child.first >= h->trees.count || seen[child.first] ||
-            !box_contains(box, &h->trees.at[child.first].box))
+        if (child.first >= h->clustering.clusters.count || seen[child.first] ||
+            !box_contains(box, &h->clustering.clusters.at[child.first].box))
             return broken(error, "the top tree is wrong about cluster", child.first);
         return seen[child.first] = true;
     }
@@ -196,15 +266,16 @@ static bool check_top(const struct hoo_kind *h, accel_error *error)
 {
     const double inf = (double)INFINITY;
     const accel_box all = {{-inf, -inf, -inf}, {inf, inf, inf}};
-    if (h->trees.count == 1)
+    const size_t clusters = h->clustering.clusters.count;
+    if (clusters == 1)
         return h->top.nodes.count == 0 || broken(error, "nodes over one cluster:", 1);
-    bool *seen = calloc(h->trees.count, sizeof *seen);
+    bool *seen = calloc(clusters, sizeof *seen);
     if (!seen) {
-        error_set(error, ACCEL_NO_MEMORY, "validate: no memory for %zu marks", h->trees.count);
+        error_set(error, ACCEL_NO_MEMORY, "validate: no memory for %zu marks", clusters);
         return false;
     }
     bool fine = check_child(h, &all, (struct boxtree_child){0, 0}, 0, seen, error);
-    for (size_t i = 0; fine && i < h->trees.count; i++)
+    for (size_t i = 0; fine && i < clusters; i++)
         fine = seen[i] || broken(error, "the top tree misses cluster", i);
     free(seen);
     return fine;
@@ -219,6 +290,9 @@ static bool validate(const accel *a, accel_error *error)
 static void release(accel *a)
 {
     struct hoo_kind *h = (struct hoo_kind *)a;
+    for (size_t i = 0; i < h->later.count; i++)
+        octree_free_parts(&h->lazy, &h->later.at[i]);
+    array_free(&a->memory, &h->later);
     cluster_free(&a->memory, &h->clustering);
     octree_pool_free(&a->memory, &h->pool);
     array_free(&a->memory, &h->trees);
@@ -234,6 +308,7 @@ const struct accel_kind hoo_kind = {
     .size = sizeof(struct hoo_kind),
     .build = build,
     .walk = walk,
+    .describe = describe_lazy,
     .validate = validate,
     .release = release,
 };

@@ -60,6 +60,9 @@ struct accel_kind {
     bool (*build)(struct build *build);
     /* Offers to the query every primitive that could win: see query.h. */
     void (*walk)(const struct accel *a, struct query *q);
+    /* Only of a kind that builds on after accel_build: adds what there is now to the counts, also
+     * while other threads query. */
+    void (*describe)(const struct accel *a, accel_info *info);
     /* Checks the invariants of the file's head. False: *error says what is broken. */
     bool (*validate)(const struct accel *a, accel_error *error);
     /* Frees what build allocated, also after a build that failed half-way. */
@@ -81,5 +84,8 @@ bool build_no_memory(struct build *build);
 
 /* Adds a line to accel_info.notes: what was left out and why, or a limit that was met. Once. */
 __attribute__((format(printf, 2, 3))) void build_note(struct build *build, const char *format, ...);
+
+/* The same, of a description. */
+__attribute__((format(printf, 2, 3))) void info_note(accel_info *info, const char *format, ...);
 
 #endif

@@ -21,15 +21,20 @@
 #include "kind.h"
 #include "query.h"
 
+struct octree_later;
+
 /* Cells deeper than this are not split, so a walk's stack is at most OCTREE_MAX_DEPTH levels. At
  * depth 40 a cell's side is 1e-12 of the root's. */
 enum { OCTREE_MAX_DEPTH = 40 };
 
-/* A leaf with `count` references from `first` on, or, if count is 0, the inner node that begins at
- * word `first` of the pool. */
+/* A leaf with `count` references from `first` on; if count is 0, the inner node that begins at word
+ * `first` of the pool; if count is OCTREE_LATER, part `first` of those that the pool leaves for
+ * later. */
 struct octree_cell {
     uint32_t first, count;
 };
+
+#define OCTREE_LATER UINT32_MAX
 
 /* An inner node and, right behind it, its children: what a walk needs is in one or two lines of the
  * cache. */
@@ -44,7 +49,9 @@ struct octree_node {
 struct octree_pool {
     ARRAY_OF(uint64_t) words; /* the inner nodes, each as many words as it needs */
     ARRAY_OF(uint32_t) refs;
-    size_t nodes, leaves; /* how many there are */
+    ARRAY_OF(struct octree_later) later; /* none unless lazy: see octree_later.h */
+    ARRAY_OF(uint32_t) later_ids;        /* what meets them, one run after the other */
+    size_t nodes, leaves;                /* how many there are */
 };
 
 /* Bits set in the lower 8. */
@@ -89,6 +96,9 @@ struct octree_rule {
 bool octree_build(struct build *build, struct octree_pool *pool, struct octree *tree,
                   const uint32_t *ids, size_t count, const accel_box *box, struct octree_rule rule,
                   double from, double to);
+
+/* Notes that cells above the given depth were left whole. */
+void octree_note_refused(accel_info *info);
 
 void octree_walk(const struct octree_pool *pool, const struct octree *tree, struct query *q);
 

@@ -8,8 +8,14 @@
  * grown, and no parameter. Two rules end the growth: a budget of references, which a cell hands
  * down in proportion, bounds the whole tree; and no more than LOOKAHEAD splits in a row may fail
  * to lower the cost, as one split alone rarely pays.
+ *
+ * A split that lowers the predicted cost is never taken back: no subtree costs more than the leaf
+ * that it replaced. So a cell below none but such splits can be left for later (octree_later.h) and
+ * is in the end what it would have been.
  */
 #include "octree.h"
+
+#include "octree_later.h"
 
 #include <string.h>
 
@@ -29,6 +35,10 @@ enum { BUDGET = 10, GIVEN_BUDGET = 100 };
 /* Splits in a row that may fail to lower the predicted cost. */
 enum { LOOKAHEAD = 1 };
 
+/* A large part is grown down to cells of this share of its primitives: a few levels, so that its
+ * first ray pays for those only and the others do not go from part to part at every step. */
+enum { SHARE_FOR_LATER = 64 };
+
 /* What is the same for all cells of one octree. */
 struct grower {
     struct build *build;
@@ -41,6 +51,8 @@ struct grower {
     uint8_t children_in[64]; /* by halves */
     uint64_t one_each[64];   /* by halves: 1 in the byte of each child */
     double done, from, to;   /* volume finished, as a share of the root; progress range */
+    uint32_t later;          /* cells of no more primitives are left for later; 0: none is */
+    const accel_box *tree;   /* the tree's root, if cells are left for later */
     uint32_t depth;          /* deepest leaf so far */
     bool refused;            /* did a cell stay whole for want of budget? */
 };
@@ -53,6 +65,7 @@ struct task {
     uint32_t depth;  /* of the cell */
     uint32_t failed; /* splits in a row that did not lower the cost */
     double budget;   /* references that it may become */
+    bool sure;       /* will no split above be taken back? */
 };
 
 /* How a cell would be split. */
@@ -62,6 +75,7 @@ struct split {
     double sum;        /* of them */
     uint32_t filled;   /* children that have any */
     double chance;     /* that a line through the cell meets a child; they are alike */
+    bool pays;         /* does it lower the cost, even if it were the last? */
 };
 
 /* Which halves a box meets: bits 0 to 2, the lower one of each axis; bits 3 to 5, the upper one. */
@@ -138,6 +152,17 @@ static void count_children(struct grower *g, const struct task *t, struct split 
     }
 }
 
+static double leaf_cost(const struct grower *g, uint32_t count)
+{
+    return LEAF_COST + g->test_cost * count;
+}
+
+/* The cost of the cell if the split were the last. */
+static double split_cost(const struct grower *g, const struct split *s)
+{
+    return NODE_COST + s->chance * (LEAF_COST * s->filled + g->test_cost * s->sum);
+}
+
 /* Places the planes, except those that every primitive would lie on, and counts the children. */
 static void try_split(struct grower *g, const struct task *t, struct split *s)
 {
@@ -152,17 +177,7 @@ static void try_split(struct grower *g, const struct task *t, struct split *s)
     count_children(g, t, s);
     const accel_box first = child_box(&t->box, s->plane, 0);
     s->chance = box_chance(&first, &t->box);
-}
-
-static double leaf_cost(const struct grower *g, uint32_t count)
-{
-    return LEAF_COST + g->test_cost * count;
-}
-
-/* The cost of the cell if the split were the last. */
-static double split_cost(const struct grower *g, const struct split *s)
-{
-    return NODE_COST + s->chance * (LEAF_COST * s->filled + g->test_cost * s->sum);
+    s->pays = split_cost(g, s) < leaf_cost(g, t->count);
 }
 
 /* Is the cell a leaf before any split is tried? */
@@ -185,7 +200,7 @@ static bool find_split(struct grower *g, struct task *t, struct split *s)
     }
     if (!isnan(g->rule.depth))
         return true;
-    t->failed = split_cost(g, s) < leaf_cost(g, t->count) ? 0 : t->failed + 1;
+    t->failed = s->pays ? 0 : t->failed + 1;
     return t->failed <= LOOKAHEAD;
 }
 
@@ -218,6 +233,39 @@ static bool make_leaf(struct grower *g, const struct task *t, struct octree_cell
     g->depth = t->depth > g->depth ? t->depth : g->depth;
     g->done += volume_share(t->depth);
     return build_tick(g->build, g->from + (g->to - g->from) * fmin(g->done, 1.0));
+}
+
+/* Primitives of the cell that no other cell has as well: those whose box begins in it. */
+static uint32_t count_owned(const struct grower *g, const struct task *t)
+{
+    const uint32_t *ids = g->stack.at + t->begin;
+    uint32_t owned = 0;
+    for (uint32_t i = 0; i < t->count; i++) {
+        const accel_box *b = &g->box[ids[i]];
+        bool owns = true;
+        for (int k = 0; k < 3; k++)
+            owns = owns && (b->lo[k] > t->box.lo[k] || t->box.lo[k] == g->tree->lo[k]);
+        owned += owns;
+    }
+    return owned;
+}
+
+static bool leave_for_later(struct grower *g, const struct task *t, struct octree_cell *cell)
+{
+    struct memory *m = &g->build->a->memory;
+    struct octree_pool *p = g->pool;
+    const size_t number = p->later.count, first = p->later_ids.count;
+    if (!array_extend(m, &p->later, 1) || !array_extend(m, &p->later_ids, t->count))
+        return build_no_memory(g->build);
+    memcpy(p->later_ids.at + first, g->stack.at + t->begin, t->count * sizeof(uint32_t));
+    p->later.at[number] = (struct octree_later){.box = t->box,
+                                                .count = t->count,
+                                                .owned = count_owned(g, t),
+                                                .depth = t->depth,
+                                                .failed = t->failed,
+                                                .budget = t->budget};
+    *cell = (struct octree_cell){(uint32_t)number, OCTREE_LATER};
+    return true;
 }
 
 /* Pushes the ids of each child, one run after the other. */
@@ -295,7 +343,8 @@ static bool grow_children(struct grower *g, const struct task *t, const struct s
                              s->count[c],
                              t->depth + 1,
                              t->failed,
-                             t->budget * share};
+                             t->budget * share,
+                             t->sure && (s->pays || !isnan(g->rule.leaf))};
         struct octree_cell made;
         double child_cost;
         if (!grow(g, &child, &made, &child_cost))
@@ -312,7 +361,11 @@ static bool grow(struct grower *g, struct task *t, struct octree_cell *cell, dou
 {
     struct split s;
     *cost = leaf_cost(g, t->count);
-    if (small_enough(g, t) || !find_split(g, t, &s))
+    if (small_enough(g, t))
+        return make_leaf(g, t, cell);
+    if (t->sure && t->count <= g->later)
+        return leave_for_later(g, t, cell);
+    if (!find_split(g, t, &s))
         return make_leaf(g, t, cell);
     const struct mark before = mark(g->pool);
     const size_t stacked = g->stack.count;
@@ -322,7 +375,7 @@ static bool grow(struct grower *g, struct task *t, struct octree_cell *cell, dou
         !grow_children(g, t, &s, cell, &inner))
         return false;
     g->stack.count = stacked;
-    if (isnan(g->rule.leaf) && inner >= *cost) {
+    if (isnan(g->rule.leaf) && !s.pays && inner >= *cost) {
         take_back(g->pool, before);
         g->done = done;
         return make_leaf(g, t, cell);
@@ -346,34 +399,94 @@ static bool prepare(struct grower *g, const uint32_t *ids, size_t count)
     return true;
 }
 
+static struct grower grower_of(struct build *build, struct octree_pool *pool,
+                               struct octree_rule rule)
+{
+    const struct primitives *prims = &build->a->prims;
+    return (struct grower){.build = build,
+                           .pool = pool,
+                           .box = prims->box,
+                           .rule = rule,
+                           .test_cost = prims->only_triangles ? TRIANGLE_COST : prims->test_cost};
+}
+
+static double budget_of(struct octree_rule rule, size_t count)
+{
+    return (isnan(rule.depth) ? BUDGET : GIVEN_BUDGET) * (double)count;
+}
+
+/* Grows the tree or part below `root`, over ids. */
+static bool grow_all(struct grower *g, struct task *root, const uint32_t *ids,
+                     struct octree_cell *cell)
+{
+    struct memory *m = &g->build->a->memory;
+    accel_info *info = &g->build->a->info;
+    double cost;
+    const bool fine = prepare(g, ids, root->count) && grow(g, root, cell, &cost);
+    if (g->children)
+        memory_resize(m, g->children, root->count, 0);
+    array_free(m, &g->stack);
+    info->depth = g->depth > info->depth ? g->depth : info->depth;
+    return fine;
+}
+
 bool octree_build(struct build *build, struct octree_pool *pool, struct octree *tree,
                   const uint32_t *ids, size_t count, const accel_box *box, struct octree_rule rule,
                   double from, double to)
 {
-    struct grower g = {.build = build,
-                       .pool = pool,
-                       .box = build->a->prims.box,
-                       .rule = rule,
-                       .test_cost = build->a->prims.only_triangles ? TRIANGLE_COST
-                                                                   : build->a->prims.test_cost,
-                       .from = from,
-                       .to = to};
-    const double budget = (isnan(rule.depth) ? BUDGET : GIVEN_BUDGET) * (double)count;
-    struct task root = {*box, 0, (uint32_t)count, 0, 0, budget};
-    struct memory *m = &build->a->memory;
-    double cost;
-    const bool fine = prepare(&g, ids, count) && grow(&g, &root, &tree->root, &cost);
+    struct grower g = grower_of(build, pool, rule);
+    struct task root = {.box = *box, .count = (uint32_t)count, .budget = budget_of(rule, count)};
+    g.from = from;
+    g.to = to;
     tree->box = *box;
-    if (g.children)
-        memory_resize(m, g.children, count, 0);
-    array_free(m, &g.stack);
-    build->a->info.depth = g.depth > build->a->info.depth ? g.depth : build->a->info.depth;
+    const bool fine = grow_all(&g, &root, ids, &tree->root);
     if (g.refused && !isnan(rule.depth))
-        build_note(build,
-                   "cells above the given depth were left whole: %d references for each "
-                   "primitive were used up",
-                   GIVEN_BUDGET);
+        octree_note_refused(&build->a->info);
     return fine;
+}
+
+/* Cells of no more primitives are left for later in a part of `count`. */
+static uint32_t size_for_later(uint32_t count, uint32_t whole)
+{
+    if (count <= whole)
+        return 0;
+    return whole > count / SHARE_FOR_LATER ? whole : count / SHARE_FOR_LATER;
+}
+
+bool octree_grow_part(struct build *build, struct octree_pool *pool, struct octree_cell *root,
+                      const struct octree_lazy *lazy, const struct octree_later *part,
+                      const accel_box *tree, bool *refused)
+{
+    struct grower g = grower_of(build, pool, lazy->rule);
+    struct task task = {.box = part->box,
+                        .count = part->count,
+                        .depth = part->depth,
+                        .failed = part->failed,
+                        .budget = part->budget,
+                        .sure = true};
+    g.later = size_for_later(part->count, lazy->whole);
+    g.tree = tree;
+    const bool fine = grow_all(&g, &task, part->ids, root);
+    *refused = g.refused && !isnan(lazy->rule.depth);
+    return fine;
+}
+
+struct octree_later octree_for_later(const uint32_t *ids, size_t count, const accel_box *box,
+                                     struct octree_rule rule)
+{
+    return (struct octree_later){.box = *box,
+                                 .ids = ids,
+                                 .count = (uint32_t)count,
+                                 .owned = (uint32_t)count,
+                                 .budget = budget_of(rule, count)};
+}
+
+void octree_note_refused(accel_info *info)
+{
+    info_note(info,
+              "cells above the given depth were left whole: %d references for each primitive were "
+              "used up",
+              GIVEN_BUDGET);
 }
 
 void octree_pool_trim(struct memory *m, struct octree_pool *pool)
@@ -386,4 +499,6 @@ void octree_pool_free(struct memory *m, struct octree_pool *pool)
 {
     array_free(m, &pool->words);
     array_free(m, &pool->refs);
+    array_free(m, &pool->later);
+    array_free(m, &pool->later_ids);
 }

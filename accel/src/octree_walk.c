@@ -13,7 +13,7 @@
  * and nothing is grown: the proof there holds for any set of near and far planes, so for cells too.
  * Other rays are tested by S itself.
  */
-#include "octree.h"
+#include "octree_later.h"
 #include "pair.h"
 
 /* One level of the walk. Children in the order of the ray: place i is child i ^ sign. Near and far
@@ -21,6 +21,7 @@
 struct level {
     double near[8], far[8];         /* where the ray enters and leaves each child */
     const struct octree_node *node; /* the cell's node */
+    const struct octree_pool *pool; /* where that lies; not set in an eager tree */
     uint32_t left;                  /* children not yet visited */
 };
 
@@ -108,14 +109,39 @@ static void test_leaf(const struct octree_pool *pool, struct query *q,
     query_test_list(q, pool->refs.at + cell->first, cell->count);
 }
 
-/* Visits a node and all below it. Inlined with `common` known. */
+/* What a walk of a lazy tree must know; NULL stands for an eager one. */
+struct growing {
+    const struct octree_lazy *lazy;
+    const accel_box *tree; /* the root's */
+};
+
+/* Goes into a part: *cell becomes its root, *pool what that lies in. False: there is no memory to
+ * build it, and it has been tested as a list. */
+static inline bool enter_part(const struct growing *growing, struct query *q,
+                              struct octree_later *later, const struct octree_cell **cell,
+                              const struct octree_pool **pool)
+{
+    const struct octree_part *part = octree_enter(growing->lazy, later, growing->tree);
+    if (!part) {
+        query_test_list(q, later->ids, later->count);
+        return false;
+    }
+    *cell = &part->root;
+    *pool = &part->pool;
+    return true;
+}
+
+/* Visits a node and all below it. Inlined with `common` known, and whether the tree is lazy. */
 __attribute__((always_inline)) static inline void walk_nodes(const struct octree_pool *pool,
+                                                             const struct growing *growing,
                                                              struct query *q, uint32_t root,
                                                              double near, double far, bool common)
 {
     struct level stack[OCTREE_MAX_DEPTH + 1];
     struct level *top = stack;
     enter(q, top, octree_node_at(pool, root), near, far, common);
+    if (growing)
+        top->pool = pool;
     for (;;) {
         if (top->left == 0) {
             if (top == stack)
@@ -128,6 +154,15 @@ __attribute__((always_inline)) static inline void walk_nodes(const struct octree
         if (!meets(q, top->near[i], top->far[i], common))
             continue;
         const struct octree_cell *cell = octree_child(top->node, i ^ q->sign);
+        if (growing) {
+            pool = top->pool;
+            if (cell->count == OCTREE_LATER &&
+                !enter_part(growing, q, &pool->later.at[cell->first], &cell, &pool)) {
+                if (query_done(q))
+                    return;
+                continue;
+            }
+        }
         if (cell->count > 0) {
             test_leaf(pool, q, cell);
             if (query_done(q))
@@ -136,6 +171,8 @@ __attribute__((always_inline)) static inline void walk_nodes(const struct octree
             top++;
             enter(q, top, octree_node_at(pool, cell->first), top[-1].near[i], top[-1].far[i],
                   common);
+            if (growing)
+                top->pool = pool;
         }
     }
 }
@@ -155,19 +192,44 @@ static void cross_box(const struct query *q, const accel_box *box, bool common, 
     }
 }
 
+/* Does the ray meet the root's box? Then *near to *far is its part inside. */
+static inline bool meets_root(const struct query *q, const accel_box *box, bool common,
+                              double *near, double *far)
+{
+    *near = common ? q->tmin : -(double)INFINITY;
+    *far = common ? query_cap(q) : (double)INFINITY;
+    cross_box(q, box, common, near, far);
+    /* Raw ends without slack tell nothing before they are grown. */
+    return (!common || *near <= *far) && meets(q, *near, *far, common);
+}
+
 __attribute__((always_inline)) static inline void
 walk_as(const struct octree_pool *pool, const struct octree *tree, struct query *q, bool common)
 {
-    double near = common ? q->tmin : -(double)INFINITY;
-    double far = common ? query_cap(q) : (double)INFINITY;
-    cross_box(q, &tree->box, common, &near, &far);
-    /* Raw ends without slack tell nothing before they are grown. */
-    if ((common && !(near <= far)) || !meets(q, near, far, common))
+    double near, far;
+    if (!meets_root(q, &tree->box, common, &near, &far))
         return;
     if (tree->root.count > 0)
         test_leaf(pool, q, &tree->root);
     else
-        walk_nodes(pool, q, tree->root.first, near, far, common);
+        walk_nodes(pool, NULL, q, tree->root.first, near, far, common);
+}
+
+__attribute__((always_inline)) static inline void walk_lazy_as(const struct octree_lazy *lazy,
+                                                               struct octree_later *tree,
+                                                               struct query *q, bool common)
+{
+    const struct growing growing = {lazy, &tree->box};
+    const struct octree_cell *root;
+    const struct octree_pool *pool;
+    double near, far;
+    if (!meets_root(q, &tree->box, common, &near, &far) ||
+        !enter_part(&growing, q, tree, &root, &pool))
+        return;
+    if (root->count > 0)
+        test_leaf(pool, q, root);
+    else
+        walk_nodes(pool, &growing, q, root->first, near, far, common);
 }
 
 void octree_walk(const struct octree_pool *pool, const struct octree *tree, struct query *q)
@@ -176,4 +238,12 @@ void octree_walk(const struct octree_pool *pool, const struct octree *tree, stru
         walk_as(pool, tree, q, true);
     else
         walk_as(pool, tree, q, false);
+}
+
+void octree_walk_lazy(const struct octree_lazy *lazy, struct octree_later *tree, struct query *q)
+{
+    if (query_common(q))
+        walk_lazy_as(lazy, tree, q, true);
+    else
+        walk_lazy_as(lazy, tree, q, false);
 }

@@ -93,6 +93,17 @@ static void shoot(const struct job *j, const accel *a, const char *config, uint6
                  (unsigned long long)((j->count - first + step - 1) / step));
 }
 
+/* What rays have built is as right as what was built before. */
+static void validate_grown(const struct job *j, const accel *a, const char *config)
+{
+    accel_info info;
+    accel_error error;
+    accel_describe(a, &info);
+    if (info.lazy_bytes > 0 && accel_validate(a, &error) != ACCEL_OK)
+        fail_msg("%s on %s (seed %llu), after the rays: %s", config, j->maker->name,
+                 (unsigned long long)j->seed, error.text);
+}
+
 static void agree_one(const struct job *j, const struct tested *t, uint64_t first, uint64_t step)
 {
     struct pool pool = {.most = most_bytes};
@@ -106,6 +117,7 @@ static void agree_one(const struct job *j, const struct tested *t, uint64_t firs
         fail_msg("%s on %s (seed %llu): %s", t->config, j->maker->name, (unsigned long long)j->seed,
                  error.text);
     shoot(j, a, t->config, first, step);
+    validate_grown(j, a, t->config);
     accel_free(a);
     assert_int_equal(pool.held, 0);
     assert_int_equal(pool.blocks, 0);

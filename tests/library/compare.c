@@ -117,9 +117,12 @@ static void add_config(struct tested **list, size_t *count, const char *kind, co
 {
     *list = must_resize(*list, (*count + 1) * sizeof **list);
     struct tested *t = &(*list)[(*count)++];
-    t->standard = key == NULL;
+    /* parts are there only where lazy is on */
+    const bool part = key && strcmp(key, "part") == 0;
+    t->standard = !key || (part && strcmp(value, "1") == 0);
     if (key)
-        snprintf(t->config, sizeof t->config, "%s:%s=%s", kind, key, value);
+        snprintf(t->config, sizeof t->config, "%s:%s%s=%s", kind, part ? "lazy=on," : "", key,
+                 value);
     else
         snprintf(t->config, sizeof t->config, "%s", kind);
 }
@@ -161,6 +164,16 @@ size_t tested_configs(struct tested **list)
         }
     }
     return count;
+}
+
+bool kind_is_there(const char *name)
+{
+    size_t count;
+    const accel_kind_info *const *kind = accel_kinds(&count);
+    for (size_t i = 0; i < count; i++)
+        if (strcmp(kind[i]->name, name) == 0)
+            return true;
+    return false;
 }
 
 /* --------------------------------------------------------------- failures ---- */

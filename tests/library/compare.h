@@ -35,12 +35,15 @@ uint64_t hash_bytes(uint64_t hash, const void *bytes, size_t size);
 /* One config string to test. */
 struct tested {
     char config[120];
-    bool standard; /* all options at their defaults */
+    bool standard; /* sees every ray: options at their defaults, or the smallest of lazy parts */
 };
 
 /* All kinds, each with its defaults, then with each word of each option, the ends of each range
  * and values between. Returns how many; the array is free()d by the caller. */
 size_t tested_configs(struct tested **list);
+
+/* Is a kind compiled into the library? */
+bool kind_is_there(const char *name);
 
 /* What was wrong, where. */
 struct failure {

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
  * Builds that fail: every allocation in turn, cancelled at every progress call. Nothing is held
- * afterwards, nothing is handed out, and a build that got through is right.
+ * afterwards, nothing is handed out, and a build that got through is right. Where rays build, they
+ * are answered as ever.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -142,6 +143,75 @@ static void test_memory(void **state)
     free(list);
 }
 
+/* ------------------------------------------------------- memory while rays build ---- */
+
+/* Queries, with `c` failing from now on as it is told; then, memory being back, until all is built
+ * that those rays build. */
+static void grow_failing(const struct test_scene *s, const char *config, struct checker *c,
+                         uint64_t expected, accel_info *end)
+{
+    enum { PATIENCE = 12 };
+    const accel_hooks hooks = {c, checked, NULL};
+    const struct checker told = *c;
+    accel *a;
+    c->fail_at = 0;
+    assert_int_equal(accel_build(&a, &s->scene, config, &hooks, NULL), ACCEL_OK);
+    c->fail_at = told.fail_at > 0 ? c->calls + told.fail_at : 0;
+    const uint64_t built = c->calls;
+    assert_int_equal(hash_answers(a, s), expected);
+    c->calls -= built;
+    c->fail_at = 0;
+    assert_int_equal(accel_validate(a, NULL), ACCEL_OK);
+    const uint64_t needed = c->calls;
+    for (int i = 0; i < PATIENCE; i++)
+        assert_int_equal(hash_answers(a, s), expected);
+    c->calls = needed;
+    accel_describe(a, end);
+    assert_int_equal(end->bytes, c->held);
+    accel_free(a);
+    check_clean(c, config, told.fail_at);
+}
+
+static void grow_failing_each(const struct test_scene *s, const char *config)
+{
+    enum { MOST = 150 };
+    accel *judge = must_build(s, "linear");
+    const uint64_t expected = hash_answers(judge, s);
+    accel_free(judge);
+    struct checker count = {.held = 0};
+    accel_info whole, now;
+    grow_failing(s, config, &count, expected, &whole);
+    assert_true(count.calls > 0 && whole.lazy_bytes > 0);
+    const uint64_t step = count.calls / MOST + 1;
+    for (uint64_t at = 1; at <= count.calls; at += step) {
+        for (int on = 0; on < 2; on++) {
+            struct checker c = {.fail_at = at, .fail_on = on};
+            grow_failing(s, config, &c, expected, &now);
+            if (now.nodes != whole.nodes || now.references != whole.references ||
+                now.bytes != whole.bytes || now.unbuilt_primitives != whole.unbuilt_primitives)
+                fail_msg("%s, allocation %llu of the rays failing: another structure", config,
+                         (unsigned long long)at);
+        }
+    }
+}
+
+static void test_memory_of_rays(void **state)
+{
+    (void)state;
+    static const char *const scenes[] = {"mixed", "lattice", "soup", "two-objects"};
+    static const char *const configs[] = {"hoo:lazy=on", "hoo:lazy=on,part=1",
+                                          "hoo:lazy=on,part=30", "hoo:lazy=on,connectivity=0"};
+    if (!kind_is_there("hoo"))
+        skip();
+    for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
+        struct test_scene s;
+        scene_make(&s, scene_maker_find(scenes[i]), test_seed());
+        for (size_t j = 0; j < sizeof configs / sizeof *configs; j++)
+            grow_failing_each(&s, configs[j]);
+        scene_free(&s);
+    }
+}
+
 /* ---------------------------------------------------------------- progress ---- */
 
 struct watch {
@@ -238,6 +308,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_memory_of_rays),
         cmocka_unit_test(test_cancel),
     };
     return cmocka_run_group_tests_name("fault", tests, NULL, NULL);

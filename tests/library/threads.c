@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Threads: many query one structure, many build at the same time, some with small stacks.
+ * Threads: many query one structure, many build at the same time, some with small stacks; many
+ * enter what is not built yet.
  */
 #include <pthread.h>
 #include <stdlib.h>
@@ -115,6 +116,116 @@ static void test_together(void **state)
     free(list);
 }
 
+/* ---------------------------------------------------- structures that rays build ---- */
+
+/* One of those that start together. */
+struct crowd {
+    pthread_barrier_t *start;
+    const accel *a;
+    const accel_ray *rays;
+    uint64_t first; /* where it begins, so that some build the same and some do not */
+    uint64_t hash;  /* of the answers, in whatever order */
+};
+
+enum { CROWD_RAYS = 300 };
+
+static void *join_crowd(void *user)
+{
+    struct crowd *w = user;
+    pthread_barrier_wait(w->start);
+    for (uint64_t i = 0; i < CROWD_RAYS; i++) {
+        const struct answer answer = ask(w->a, &w->rays[(w->first + i) % CROWD_RAYS], true);
+        w->hash += answer_hash(HASH_START, &answer);
+    }
+    return NULL;
+}
+
+/* Describes and validates what others are building. */
+static void *watch_crowd(void *user)
+{
+    struct crowd *w = user;
+    uint64_t built = 0;
+    pthread_barrier_wait(w->start);
+    for (int i = 0; i < 20; i++) {
+        accel_info info;
+        accel_error error;
+        accel_describe(w->a, &info);
+        w->hash += info.lazy_bytes < built;
+        built = info.lazy_bytes;
+        w->hash += accel_validate(w->a, &error) != ACCEL_OK;
+    }
+    return NULL;
+}
+
+static accel_info grow_by(const struct test_scene *s, const char *config, size_t threads,
+                          const accel_ray *rays, uint64_t expected)
+{
+    struct crowd crowd[THREADS + 1];
+    pthread_t thread[THREADS + 1];
+    pthread_barrier_t start;
+    accel *a = must_build(s, config);
+    pthread_barrier_init(&start, NULL, (unsigned)threads + 1);
+    for (size_t i = 0; i <= threads; i++) {
+        crowd[i] = (struct crowd){&start, a, rays, i / 2 * 31, 0};
+        assert_int_equal(
+            pthread_create(&thread[i], NULL, i < threads ? join_crowd : watch_crowd, &crowd[i]), 0);
+    }
+    for (size_t i = 0; i <= threads; i++)
+        pthread_join(thread[i], NULL);
+    pthread_barrier_destroy(&start);
+    for (size_t i = 0; i <= threads; i++)
+        if (crowd[i].hash != (i < threads ? expected : 0))
+            fail_msg("%s: thread %zu of %zu %s", config, i, threads,
+                     i < threads ? "answers differently" : "saw a broken structure");
+    accel_info info;
+    accel_describe(a, &info);
+    accel_free(a);
+    return info;
+}
+
+/* However many threads, the answers are linear's and the structure is the same. */
+static void grow_together(const struct test_scene *s, const char *config, const accel_ray *rays,
+                          uint64_t expected)
+{
+    const accel_info alone = grow_by(s, config, 1, rays, expected);
+    for (int turn = 0; turn < 3; turn++) {
+        const accel_info info = grow_by(s, config, turn == 0 ? 2 : THREADS, rays, expected);
+        assert_int_equal(info.nodes, alone.nodes);
+        assert_int_equal(info.leaves, alone.leaves);
+        assert_int_equal(info.references, alone.references);
+        assert_int_equal(info.depth, alone.depth);
+        assert_int_equal(info.bytes, alone.bytes);
+        assert_int_equal(info.unbuilt_primitives, alone.unbuilt_primitives);
+    }
+}
+
+static void test_grow_together(void **state)
+{
+    (void)state;
+    static const char *const scenes[] = {"soup", "mixed", "terrain"};
+    static const char *const configs[] = {"hoo:lazy=on", "hoo:lazy=on,part=1",
+                                          "hoo:lazy=on,part=50", "hoo:lazy=on,connectivity=0"};
+    if (!kind_is_there("hoo"))
+        skip();
+    for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
+        struct test_scene s;
+        accel_ray rays[CROWD_RAYS];
+        scene_make(&s, scene_maker_find(scenes[i]), test_seed());
+        accel *judge = must_build(&s, "linear");
+        struct dice d = dice_from(test_seed(), 3);
+        uint64_t expected = 0;
+        for (uint64_t r = 0; r < CROWD_RAYS; r++) {
+            rays[r] = ray_families->make(&s, judge, &d, r);
+            const struct answer answer = ask(judge, &rays[r], true);
+            expected += answer_hash(HASH_START, &answer);
+        }
+        for (size_t j = 0; j < sizeof configs / sizeof *configs; j++)
+            grow_together(&s, configs[j], rays, expected);
+        accel_free(judge);
+        scene_free(&s);
+    }
+}
+
 /* Sanitizers make frames larger. */
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 static const size_t small_stack = 1 << 20;
@@ -153,6 +264,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_together),
+        cmocka_unit_test(test_grow_together),
         cmocka_unit_test(test_small_stack),
     };
     return cmocka_run_group_tests_name("threads", tests, NULL, NULL);

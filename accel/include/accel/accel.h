@@ -24,6 +24,14 @@
  * Threads: a built accel is immutable. Any number of threads may query it at the same time, each
  * with its own accel_query. Builds of different structures are independent.
  *
+ * Lazy structures (hoo:lazy=on) are built where rays go: the query that first enters a part builds
+ * it. Answers, errors and what is built are the same whichever query comes first and however many
+ * threads there are; no query waits for another. Three rules differ. Memory: queries allocate, by
+ * accel_hooks.resize, which several threads then call at the same time. Errors: a query that gets
+ * no memory tests the part's primitives one by one, so its answer is the same, and later queries
+ * try to build again. Hooks: accel_build's progress and cancellation do not cover what queries
+ * build. No callback of the scene is called by building, only by testing; boxes were copied.
+ *
  * The library never prints, exits or aborts, and has no global state. The floating-point
  * environment is the caller's: under another rounding mode or flush-to-zero the answers may differ
  * between modes, but every kind still equals "linear" in that mode. Its exceptions must not trap:
@@ -209,10 +217,12 @@ typedef struct accel_hooks {
     void *user; /* handed to both */
     /* Lua's allocator in one function: to == 0 frees and returns NULL; old == NULL allocates;
      * otherwise resizes. Returns NULL if it cannot, leaving the old block alone. NULL: realloc.
-     * Called from the thread that runs accel_build or accel_free; kept until accel_free. */
+     * Called from the thread that runs accel_build or accel_free; kept until accel_free. Of a
+     * lazy structure called by queries too, from many threads at the same time: it must be
+     * thread-safe, and may not query that structure. */
     void *(*resize)(void *user, void *old, size_t from, size_t to);
     /* Called at least about every 10 ms of a build with the name of the phase and its done part
-     * in 0..1; return false to cancel. */
+     * in 0..1; return false to cancel. Never called by queries. */
     bool (*progress)(void *user, const char *phase, double done);
 } accel_hooks;
 
@@ -260,8 +270,8 @@ ACCEL_API bool accel_any(const accel *a, const accel_ray *ray, accel_query *quer
 typedef bool accel_visit_hit(void *user, const accel_hit *hit);
 
 /* Visits every hit in order of (t, geometry, primitive), each exactly once (two hits of one
- * primitive at one t are one). Allocates nothing: hits are gathered in fixed batches, one walk for
- * each. Returns false if the visitor ended the query. */
+ * primitive at one t are one). Needs no memory for them: they are gathered in fixed batches, one
+ * walk for each. Returns false if the visitor ended the query. */
 ACCEL_API bool accel_all(const accel *a, const accel_ray *ray, accel_visit_hit *visit, void *user,
                          accel_query *query);
 
@@ -314,8 +324,13 @@ typedef struct accel_info {
     uint64_t references; /* entries in all leaves together */
     uint32_t depth;      /* deepest leaf; the root has depth 0 */
     uint64_t bytes;      /* held now */
-    uint64_t peak_bytes; /* held at most during the build */
-    double seconds;      /* the whole build, wall clock */
+    uint64_t peak_bytes; /* held at most during accel_build */
+    /* Of a lazy structure; 0 of others, which are built as a whole. Nodes, leaves, references,
+     * depth and bytes above are those built by now. */
+    uint32_t unbuilt_clusters;   /* that no query has entered */
+    uint64_t unbuilt_primitives; /* in them and in other parts that none has entered */
+    uint64_t lazy_bytes;         /* of bytes: built by queries */
+    double seconds;              /* the whole build, wall clock */
     uint32_t phase_count;
     struct {
         const char *name;
@@ -325,7 +340,7 @@ typedef struct accel_info {
     char notes[ACCEL_INFO_NOTES][160];
 } accel_info;
 
-/* Describes `a`. */
+/* Describes `a`. Any thread may ask at any time before accel_free, also while others query. */
 ACCEL_API void accel_describe(const accel *a, accel_info *info);
 
 /* The padded box that the library uses for a primitive: its box grown outward by 2^-44 of its
@@ -334,7 +349,8 @@ ACCEL_API bool accel_padded_box(const accel *a, accel_id id, accel_box *box);
 
 /* Walks the whole structure and checks every invariant that the exactness proof needs: every
  * primitive is in every cell that its box meets, boxes contain what is below them, indices are in
- * range, depth is within its cap. Takes time linear in the structure's size.
+ * range, depth is within its cap; of a lazy structure as much as is built, and the lists of what
+ * is not. Takes time linear in the structure's size. Others may query meanwhile.
  * Returns ACCEL_OK, or ACCEL_BROKEN with the first violation in *error. */
 ACCEL_API accel_status accel_validate(const accel *a, accel_error *error);
 

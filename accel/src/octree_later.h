@@ -1,0 +1,113 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * Octrees whose parts are built when the first ray enters them.
+ *
+ * A part is a cell and what meets it: a whole tree, or, in a part of many primitives, each cell
+ * some levels further down. Until a ray enters it, it is a list of ids and what the builder knew on
+ * its way there. Who enters it first builds it into a block of its own and publishes the block by
+ * compare-and-swap with release order; of two that do so at the same time one throws its own away.
+ * All that a walk pays is one load with acquire order for each part that it enters.
+ *
+ * Invariant: what is built is, cell by cell, what octree_build would have made: parts begin only
+ * where no split above can be taken back, with what the builder had at hand there, and are built in
+ * the floating-point environment of accel_build. So neither the order of rays nor the number of
+ * threads changes the structure or an answer.
+ *
+ * Without memory for a part its ids are tested as a list, which answers the same (query.h); it is
+ * tried again at the 1st, 2nd, 4th, 8th, ... entry after that.
+ *
+ * Bad at: being entered everywhere. The ids of all parts are kept, which takes memory that an eager
+ * build does not need, and a walk goes from block to block.
+ */
+#ifndef ACCEL_OCTREE_LATER_H
+#define ACCEL_OCTREE_LATER_H
+
+#include <fenv.h>
+#include <stdatomic.h>
+
+#include "octree.h"
+
+struct octree_part;
+
+struct octree_later {
+    accel_box box;       /* the cell */
+    const uint32_t *ids; /* what meets it, rising; of a pool that grows: set in the end */
+    uint32_t count;      /* of them */
+    uint32_t owned;      /* of them those that no part beside this one owns */
+    uint32_t depth;      /* of the cell in its tree */
+    uint32_t failed;     /* the builder's, as is the budget */
+    double budget;
+    atomic_uint turned_away;           /* entries since there was no memory; 0: there was */
+    struct octree_part *_Atomic built; /* NULL until a ray enters it */
+};
+
+/* A part as it is built: one block, in which its pool lies too. Immutable once published. */
+struct octree_part {
+    struct octree_cell root;
+    struct octree_pool pool;
+    uint32_t depth; /* of its deepest leaf, in the tree */
+    bool refused;   /* see octree_note_refused */
+    size_t bytes;   /* of the block */
+};
+
+/* How parts are built. */
+struct octree_lazy {
+    const accel *a;
+    struct octree_rule rule;
+    uint32_t whole;     /* a part of no more primitives is built as a whole */
+    fenv_t environment; /* that of accel_build */
+};
+
+/* A whole tree, to be built later over ids[0 .. count - 1], count > 0, all inside `box`. The ids
+ * must stay. */
+struct octree_later octree_for_later(const uint32_t *ids, size_t count, const accel_box *box,
+                                     struct octree_rule rule);
+
+/* Grows the cells of a part, which belongs to the tree in the box `tree`, into *pool and *root. */
+bool octree_grow_part(struct build *build, struct octree_pool *pool, struct octree_cell *root,
+                      const struct octree_lazy *lazy, const struct octree_later *part,
+                      const accel_box *tree, bool *refused);
+
+/* Builds a part that is not there yet. NULL: there is no memory now, test its ids. */
+const struct octree_part *octree_build_part(const struct octree_lazy *lazy,
+                                            struct octree_later *later, const accel_box *tree);
+
+/* The part, which is built if this is the first entry. NULL: test its ids. */
+static inline const struct octree_part *
+octree_enter(const struct octree_lazy *lazy, struct octree_later *later, const accel_box *tree)
+{
+    const struct octree_part *part = atomic_load_explicit(&later->built, memory_order_acquire);
+    return __builtin_expect(part != NULL, 1) ? part : octree_build_part(lazy, later, tree);
+}
+
+/* The walk of a lazy tree. */
+void octree_walk_lazy(const struct octree_lazy *lazy, struct octree_later *tree, struct query *q);
+
+/* What is built by now, and what is not. */
+struct octree_census {
+    uint64_t nodes, leaves, references, bytes;
+    uint64_t unbuilt; /* primitives of parts that no ray has entered, each counted once */
+    uint32_t depth;   /* deepest leaf */
+    bool refused;     /* see octree_note_refused */
+};
+
+/* Adds a part and the parts in it; is it built? While others query it may miss what they build. */
+bool octree_count(const struct octree_later *later, struct octree_census *census);
+
+/* As octree_validate, for as much as is built. */
+bool octree_validate_lazy(const accel *a, const struct octree_later *tree, accel_error *error);
+
+/* Frees what was built below. */
+void octree_free_parts(const struct octree_lazy *lazy, struct octree_later *later);
+
+/* The option `part`, for kinds that hold lazy octrees. */
+#define OCTREE_PART_OPTION                                                                         \
+    {                                                                                              \
+        .key = "part",                                                                             \
+        .meaning = "lazy: octrees of no more primitives are built as a whole, larger ones in "     \
+                   "parts",                                                                        \
+        .min = 1, .max = 1e9, .standard = OCTREE_PART, .whole = true                               \
+    }
+enum { OCTREE_PART = 4096 };
+
+#endif
