@@ -9,9 +9,9 @@
 #include "bench.h"
 #include "judge.h"
 #include "machine.h"
+#include "quantile.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 static bool same(const accel_ray_set *set, size_t i, bool found, const accel_hit *hit)
@@ -92,12 +92,6 @@ bool accel_bench_judge(accel_bench *b, const accel *linear, size_t sample, accel
     return true;
 }
 
-static int compare(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 bool accel_bench_time(accel_bench *b, accel_progress *progress)
 {
     for (unsigned turn = 0; turn < b->repeats; turn++) {
@@ -121,7 +115,7 @@ bool accel_bench_time(accel_bench *b, accel_progress *progress)
     accel_progress_clear(progress);
     for (size_t c = 0; c < b->count; c++) {
         for (int s = 0; s < ACCEL_SETS; s++) {
-            qsort(b->at[c].ns[s], b->repeats, sizeof(double), compare);
+            accel_sort_values(b->at[c].ns[s], b->repeats);
         }
     }
     return true;
@@ -129,8 +123,5 @@ bool accel_bench_time(accel_bench *b, accel_progress *progress)
 
 double accel_bench_ns(const accel_bench *b, size_t c, int set, double part)
 {
-    const double at = part * (b->repeats - 1);
-    const unsigned below = (unsigned)at, above = below + 1 < b->repeats ? below + 1 : below;
-    const double *ns = b->at[c].ns[set];
-    return ns[below] + (at - below) * (ns[above] - ns[below]);
+    return accel_quantile(b->at[c].ns[set], b->repeats, part);
 }

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "trials.h"
 
+#include "quantile.h"
+
 #include <stdio.h>
-#include <stdlib.h>
 
 static void show(void *progress, double done)
 {
@@ -65,26 +66,12 @@ static int take_turns(accel_trials *t, const accel_loaded *loaded, const accel_c
     return code;
 }
 
-static int compare(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-/* The value at `part` of the sorted ones, between two of them in proportion. */
-static double quantile(const double *sorted, unsigned count, double part)
-{
-    const double at = part * (count - 1);
-    const unsigned below = (unsigned)at, above = below + 1 < count ? below + 1 : below;
-    return sorted[below] + (at - below) * (sorted[above] - sorted[below]);
-}
-
 static void sum_up(accel_trial *trial, unsigned repeats)
 {
-    qsort(trial->seconds, repeats, sizeof trial->seconds[0], compare);
-    trial->median = quantile(trial->seconds, repeats, 0.5);
-    trial->quartiles[0] = quantile(trial->seconds, repeats, 0.25);
-    trial->quartiles[1] = quantile(trial->seconds, repeats, 0.75);
+    accel_sort_values(trial->seconds, repeats);
+    trial->median = accel_quantile(trial->seconds, repeats, 0.5);
+    trial->quartiles[0] = accel_quantile(trial->seconds, repeats, 0.25);
+    trial->quartiles[1] = accel_quantile(trial->seconds, repeats, 0.75);
 }
 
 int accel_trials_run(accel_trials *t, const accel_command *command, accel_progress *progress)
