@@ -15,7 +15,7 @@ static const accel_flag flags[] = {
     [FLAG_QUICK] = {"quick", 0, NULL, "fewer rays, photons and sizes: less than two minutes"},
     [FLAG_MINUTES] = {"minutes", 0, "M",
                       "about as long, 0..1440 (default: 60); 0: the least counts"},
-    [FLAG_ONLY] = {"only", 0, "PART", "of exact, cases, light (default: all)"},
+    [FLAG_ONLY] = {"only", 0, "PART", "of exact, cases, light, choice, size (default: all)"},
 };
 
 /* What --quick gives the sections: the least counts of some take longer than their share, and two
@@ -28,9 +28,9 @@ static const struct part {
     accel_report_section *run;
     double share;
 } parts[] = {
-    {"exact", accel_report_exact, 0.2},
-    {"cases", accel_report_cases, 0.25},
-    {"light", accel_report_light, 0.35},
+    {"exact", accel_report_exact, 0.15}, {"cases", accel_report_cases, 0.2},
+    {"light", accel_report_light, 0.3},  {"choice", accel_report_choice, 0.15},
+    {"size", accel_report_size, 0.2},
 };
 
 enum { PARTS = sizeof parts / sizeof parts[0] };
@@ -127,7 +127,8 @@ static bool read_part(const accel_arguments *a, request *q)
             return true;
         }
     }
-    accel_complain(a->command, "--only is '%.60s'; allowed are exact, cases, light", a->value);
+    accel_complain(a->command, "--only is '%.60s'; allowed are exact, cases, light, choice, size",
+                   a->value);
     return false;
 }
 

@@ -26,7 +26,8 @@ typedef struct accel_reporting {
 /* A section: takes about `seconds`. False: it has complained. */
 typedef bool accel_report_section(accel_reporting *r, double seconds);
 
-accel_report_section accel_report_exact, accel_report_cases, accel_report_light;
+accel_report_section accel_report_exact, accel_report_cases, accel_report_light,
+    accel_report_choice, accel_report_size;
 
 /* --------------------------------------------------------------------- page ---- */
 

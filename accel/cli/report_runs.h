@@ -1,0 +1,42 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * One structure on one set of rays: judged, counted and timed.
+ */
+#ifndef ACCEL_CLI_REPORT_RUNS_H
+#define ACCEL_CLI_REPORT_RUNS_H
+
+#include "bench.h"
+#include "report.h"
+
+/* What it came to. */
+typedef struct accel_run {
+    char name[80];       /* CONFIG or peer */
+    bool peer;           /* its other answers are counted, its nodes are not known */
+    size_t rays, wrong;  /* wrong: other bits than linear; of a peer: another primitive */
+    double ns;           /* for each ray, median of the turns, processor time */
+    double nodes, tests; /* for each ray */
+    double build;        /* seconds, processor time */
+    double bytes;        /* held */
+} accel_run;
+
+/* A scene with diffuse bounces, the rays of a path tracer, and what is right for them. */
+typedef struct accel_ground {
+    accel_loaded loaded;
+    accel_ray_set set; /* hits: right, bit for bit; linear has judged a sample */
+} accel_ground;
+
+/* Loads the scene, makes up to `rays` rays, has linear judge them for about `seconds`. False: said.
+ */
+bool accel_ground_make(accel_ground *g, accel_reporting *r, const char *scene, size_t rays,
+                       double seconds);
+
+void accel_ground_free(accel_ground *g);
+
+/* Builds, judges and times CONFIG. False: said. */
+bool accel_run_config(accel_run *run, accel_reporting *r, const accel_ground *g,
+                      const char *config);
+
+/* The same for all peers; returns how many. */
+size_t accel_run_peers(accel_run runs[ACCEL_MOST_PEERS], const accel_ground *g);
+
+#endif
