@@ -116,7 +116,7 @@ static bool run_auto(accel_reporting *r, FILE *csv, const accel_ground *g, size_
 static bool run_scene(accel_reporting *r, FILE *csv, size_t scene, size_t rays, regret *worst)
 {
     accel_ground g;
-    if (!accel_ground_make(&g, r, scenes[scene], rays, 0.2)) {
+    if (!accel_ground_make(&g, r, scenes[scene], ACCEL_GROUND_BOUNCES, rays, 0.2)) {
         return false;
     }
     bool fine = run_auto(r, csv, &g, scene);

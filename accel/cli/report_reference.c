@@ -16,7 +16,7 @@
 #include "photons_surface.h"
 #include "photons_vector.h"
 #include "plates.h"
-#include "random.h"
+#include "scatter.h"
 #include "scene_build.h"
 
 #include <stdatomic.h>
@@ -169,21 +169,6 @@ static double direct(const accel_light_scene *s, const accel *a, const stop *p,
     return accel_any(a, &ray, NULL) ? 0.0 : s->light.power / PI * here * there / (square * square);
 }
 
-/* A direction around the normal by the cosine: a point of the disc, lifted to the sphere. */
-static void scatter(const double normal[3], accel_random *random, double out[3])
-{
-    double x[3], y[3];
-    const double axis[3] = {fabs(normal[0]) < 0.5, fabs(normal[0]) >= 0.5, 0.0};
-    const double square = accel_random_unit(random);
-    const double angle = 2.0 * PI * accel_random_unit(random), r = sqrt(square);
-    vector_cross(x, normal, axis);
-    vector_normalize(x);
-    vector_cross(y, normal, x);
-    for (int k = 0; k < 3; k++) {
-        out[k] = r * cos(angle) * x[k] + r * sin(angle) * y[k] + sqrt(1.0 - square) * normal[k];
-    }
-}
-
 static double follow(const accel_light_scene *s, const accel *a, size_t receiver, uint64_t number)
 {
     accel_random random = accel_random_start(SEED, 2 + (uint32_t)receiver, number);
@@ -193,7 +178,7 @@ static double follow(const accel_light_scene *s, const accel *a, size_t receiver
     double sum = direct(s, a, &p, &random);
     while (accel_random_unit(&random) < s->run.reflectance) {
         double dir[3];
-        scatter(p.normal, &random, dir);
+        accel_scatter(p.normal, &random, dir);
         accel_ray ray = accel_ray_from(p.at, dir);
         ray.skip = p.on;
         accel_hit hit;

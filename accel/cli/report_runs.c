@@ -3,6 +3,9 @@
 
 #include "judge.h"
 #include "machine.h"
+#include "photons.h"
+#include "photons_surface.h"
+#include "scatter.h"
 
 #include <stdlib.h>
 
@@ -43,8 +46,58 @@ static bool judge(accel_ground *g, accel_reporting *r, double seconds)
     return true;
 }
 
-bool accel_ground_make(accel_ground *g, accel_reporting *r, const char *scene, size_t rays,
-                       double seconds)
+/* One ray from a light, or from what that hits. False: it hits nothing. */
+static bool make_photon(const accel_ground *g, const accel *a, const accel_light *light,
+                        accel_random *random, bool reflected, accel_ray *ray)
+{
+    double from[3], normal[3], dir[3];
+    const double u = accel_random_unit(random), v = accel_random_unit(random);
+    for (int k = 0; k < 3; k++) {
+        from[k] = light->corner[k] + u * light->edge[0][k] + v * light->edge[1][k];
+    }
+    vector_cross(normal, light->edge[0], light->edge[1]);
+    vector_normalize(normal);
+    accel_scatter(normal, random, dir);
+    *ray = accel_ray_from(from, dir);
+    accel_hit hit;
+    if (!accel_closest(a, ray, &hit, NULL)) {
+        return !reflected;
+    }
+    if (reflected) {
+        const accel_surface surface = accel_surface_at(&g->loaded.scene, ray, &hit);
+        accel_scatter(surface.normal, random, dir);
+        *ray = accel_ray_from(surface.at, dir);
+        ray->skip = (accel_id){hit.geom, hit.prim};
+    }
+    return true;
+}
+
+static bool make_photons(accel_ground *g, const char *scene, const accel *a, size_t count)
+{
+    accel_light lights[ACCEL_MOST_LIGHTS];
+    const uint32_t light_count = accel_scene_lights(scene, &g->loaded.scene, lights);
+    g->set = (accel_ray_set){.name = "photon",
+                             .rays = malloc((count + 1) * sizeof(accel_ray)),
+                             .hits = malloc((count + 1) * sizeof(accel_hit))};
+    if (g->set.rays == NULL || g->set.hits == NULL) {
+        return false;
+    }
+    for (uint64_t i = 0; g->set.count < count && i < 16 * (uint64_t)count; i++) {
+        accel_random random = accel_random_start(1, 78, i);
+        const accel_light *light = &lights[i % light_count];
+        accel_ray *ray = &g->set.rays[g->set.count];
+        if (!make_photon(g, a, light, &random, i / light_count % 2 == 1, ray)) {
+            continue;
+        }
+        accel_hit *hit = &g->set.hits[g->set.count++];
+        hit->geom = ACCEL_NONE;
+        g->set.found += accel_closest(a, ray, hit, NULL);
+    }
+    return true;
+}
+
+bool accel_ground_make(accel_ground *g, accel_reporting *r, const char *scene,
+                       accel_ground_rays which, size_t rays, double seconds)
 {
     *g = (accel_ground){.set = {.count = 0}};
     if (!accel_open_scene(&g->loaded, scene, r->command, &r->progress)) {
@@ -52,7 +105,9 @@ bool accel_ground_make(accel_ground *g, accel_reporting *r, const char *scene, s
     }
     accel *a = accel_report_build(r, &g->loaded.scene, ACCEL_DEFAULT_CONFIG);
     bool fine = a != NULL;
-    if (fine && !accel_make_set(&g->set, ACCEL_SET_BOUNCE, rays, a, &g->loaded.scene)) {
+    if (fine && !(which == ACCEL_GROUND_PHOTONS
+                      ? make_photons(g, scene, a, rays)
+                      : accel_make_set(&g->set, ACCEL_SET_BOUNCE, rays, a, &g->loaded.scene))) {
         accel_complain(r->command, "no memory for %zu rays; nothing was written", rays);
         fine = false;
     }

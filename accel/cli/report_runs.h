@@ -19,7 +19,14 @@ typedef struct accel_run {
     double bytes;        /* held */
 } accel_run;
 
-/* A scene with diffuse bounces, the rays of a path tracer, and what is right for them. */
+/* Which rays. */
+typedef enum accel_ground_rays {
+    ACCEL_GROUND_BOUNCES, /* diffuse, from what a camera that frames the scene sees */
+    ACCEL_GROUND_PHOTONS /* from the scene's lights, and diffuse from what those hit, half and half:
+                            a camera would hardly see two clusters far apart */
+} accel_ground_rays;
+
+/* A scene with rays and what is right for them. */
 typedef struct accel_ground {
     accel_loaded loaded;
     accel_ray_set set; /* hits: right, bit for bit; linear has judged a sample */
@@ -27,8 +34,8 @@ typedef struct accel_ground {
 
 /* Loads the scene, makes up to `rays` rays, has linear judge them for about `seconds`. False: said.
  */
-bool accel_ground_make(accel_ground *g, accel_reporting *r, const char *scene, size_t rays,
-                       double seconds);
+bool accel_ground_make(accel_ground *g, accel_reporting *r, const char *scene,
+                       accel_ground_rays which, size_t rays, double seconds);
 
 void accel_ground_free(accel_ground *g);
 

@@ -31,6 +31,27 @@ enum {
     MOST_RAYS = 50000
 };
 
+/* What the words say: of the largest scene that was run. */
+typedef struct summary {
+    uint64_t primitives;
+    accel_run fastest, slowest_build; /* of ours, linear left out */
+    accel_run peer;                   /* the fastest; its name is empty where there is none */
+} summary;
+
+static void sum_up(summary *s, const accel_run *run)
+{
+    if (strcmp(run->name, "linear") == 0) {
+        return;
+    }
+    accel_run *best = run->peer ? &s->peer : &s->fastest;
+    if (best->name[0] == '\0' || run->ns < best->ns) {
+        *best = *run;
+    }
+    if (!run->peer && run->build > s->slowest_build.build) {
+        s->slowest_build = *run;
+    }
+}
+
 static void write_row(FILE *csv, const char *scene, uint64_t primitives, double x,
                       const accel_run *run)
 {
@@ -42,15 +63,17 @@ static void write_row(FILE *csv, const char *scene, uint64_t primitives, double 
 
 /* Every form of ours, and the peers. */
 static bool run_all(accel_reporting *r, FILE *csv, const char *scene, double x, size_t rays,
-                    double seconds)
+                    double seconds, summary *s)
 {
     accel_ground g;
-    if (!accel_ground_make(&g, r, scene, rays, 0.05 * seconds)) {
+    if (!accel_ground_make(&g, r, scene, x < 0.0 ? ACCEL_GROUND_BOUNCES : ACCEL_GROUND_PHOTONS,
+                           rays, 0.05 * seconds)) {
         return false;
     }
     const uint64_t primitives = accel_scene_primitives(&g.loaded.scene);
     const accel_forms forms = accel_report_forms();
     bool fine = true;
+    *s = (summary){.primitives = primitives};
     for (size_t i = 0; fine && i < forms.count; i++) {
         accel_run run;
         if (strcmp(forms.at[i], "linear") == 0 && primitives > LINEAR_SIZE) {
@@ -60,12 +83,14 @@ static bool run_all(accel_reporting *r, FILE *csv, const char *scene, double x, 
         fine = accel_run_config(&run, r, &g, forms.at[i]);
         if (fine) {
             write_row(csv, scene, primitives, x < 0.0 ? (double)primitives : x, &run);
+            sum_up(s, &run);
         }
     }
     accel_run peers[ACCEL_MOST_PEERS];
     const size_t count = fine ? accel_run_peers(peers, &g) : 0;
     for (size_t i = 0; i < count; i++) {
         write_row(csv, scene, primitives, x < 0.0 ? (double)primitives : x, &peers[i]);
+        sum_up(s, &peers[i]);
     }
     accel_ground_free(&g);
     return fine;
@@ -79,12 +104,12 @@ static size_t rays_for(double seconds)
 }
 
 /* Ten times as many triangles as long as they fit. */
-static bool run_sizes(accel_reporting *r, FILE *csv, double seconds)
+static bool run_sizes(accel_reporting *r, FILE *csv, double seconds, summary *s)
 {
     const double end = accel_seconds() + seconds;
     for (size_t i = 0; i < SIZES; i++) {
         const double start = accel_seconds();
-        if (!run_all(r, csv, sizes[i], -1.0, rays_for(seconds), seconds)) {
+        if (!run_all(r, csv, sizes[i], -1.0, rays_for(seconds), seconds, s)) {
             return false;
         }
         const double next = 8.0 * (accel_seconds() - start);
@@ -95,12 +120,12 @@ static bool run_sizes(accel_reporting *r, FILE *csv, double seconds)
     return true;
 }
 
-static bool run_gaps(accel_reporting *r, FILE *csv, double seconds)
+static bool run_gaps(accel_reporting *r, FILE *csv, double seconds, summary *s)
 {
     for (size_t i = 0; i < GAPS; i++) {
         char scene[40];
         snprintf(scene, sizeof scene, "cubes:gap=%d", gaps[i]);
-        if (!run_all(r, csv, scene, gaps[i], rays_for(seconds), seconds / GAPS)) {
+        if (!run_all(r, csv, scene, gaps[i], rays_for(seconds), seconds / GAPS, s)) {
             return false;
         }
     }
@@ -214,38 +239,56 @@ static bool draw_gap(accel_reporting *r)
     return accel_plot_close(r, &plot);
 }
 
-static bool write_page(accel_reporting *r)
+/* How a peer compares: nothing where there is none. */
+static void write_peer(char *to, size_t room, const summary *s)
 {
+    to[0] = '\0';
+    if (s->peer.name[0] != '\0') {
+        snprintf(to, room,
+                 " %s traces %.1f times as fast as the fastest of ours (<code>%s</code>).",
+                 s->peer.name, s->fastest.ns / s->peer.ns, s->fastest.name);
+    }
+}
+
+static bool write_page(accel_reporting *r, const summary *size, const summary *gap)
+{
+    char caption[1200], gap_caption[1200], peer[300];
+    write_peer(peer, sizeof peer, size);
+    snprintf(caption, sizeof caption,
+             "Number of triangles against work for each ray, time, build, both together, and "
+             "memory. A hierarchy needs a few nodes more for ten times the triangles. <b>Where we "
+             "lose:</b> at %llu triangles,%s The slowest of our builds is <code>%s</code> with "
+             "%.2f s; <code>%s</code> builds in %.2f s.",
+             (unsigned long long)size->primitives, peer, size->slowest_build.name,
+             size->slowest_build.build, size->fastest.name, size->fastest.build);
+    write_peer(peer, sizeof peer, gap);
+    snprintf(gap_caption, sizeof gap_caption,
+             "The gap between two clusters against work for each ray. <b>Where we lose:</b> fewer "
+             "nodes are not less time by themselves: compare the first panel with the last. At the "
+             "largest gap,%s",
+             peer);
     accel_page_title(r, "size", "Work against size, against gaps; memory");
     accel_page_text(
         r,
         "The same scene, nine teapots and a floor, cut into more and more triangles; "
         "and two clusters of cubes, farther and farther apart, as in the first table of "
-        "the paper on hierarchies of octrees. Rays are diffuse bounces. Linear search "
+        "the paper on hierarchies of octrees. Rays are diffuse bounces; for the gap "
+        "photons from a light over each cluster, half of them reflected. Linear search "
         "is asked up to %d triangles; of the larger scenes it judges a sample.",
         LINEAR_SIZE);
-    return accel_page_plot(
-               r, "size", csv_name,
-               "Number of triangles against work for each ray, time, build, both "
-               "together, and memory. A hierarchy needs a few nodes more for ten times "
-               "the triangles. <b>Where we lose:</b> Embree traces and builds faster at "
-               "every size; bsp's build is the slowest of ours.") &&
-           accel_page_plot(
-               r, "gap", gap_name,
-               "The gap between two clusters against work for each ray. A gap costs "
-               "one octree over everything more cells; clusters (hoo, hug) and boxes "
-               "(bvh) leave it out. <b>Where we lose:</b> fewer nodes are not less time "
-               "by themselves: compare the first panel with the last.");
+    return accel_page_plot(r, "size", csv_name, caption) &&
+           accel_page_plot(r, "gap", gap_name, gap_caption);
 }
 
 static bool write_figures(accel_reporting *r, const char *name, const char *names,
-                          bool (*run)(accel_reporting *, FILE *, double), double seconds)
+                          bool (*run)(accel_reporting *, FILE *, double, summary *), double seconds,
+                          summary *s)
 {
     FILE *csv = accel_report_csv(r, name, names);
     if (csv == NULL) {
         return false;
     }
-    if (!run(r, csv, seconds)) {
+    if (!run(r, csv, seconds, s)) {
         fclose(csv);
         return false;
     }
@@ -254,7 +297,8 @@ static bool write_figures(accel_reporting *r, const char *name, const char *name
 
 bool accel_report_size(accel_reporting *r, double seconds)
 {
-    return write_figures(r, gap_name, gap_columns, run_gaps, 0.2 * seconds) &&
-           write_figures(r, csv_name, columns, run_sizes, 0.8 * seconds) && draw_size(r) &&
-           draw_gap(r) && write_page(r);
+    summary gap, size;
+    return write_figures(r, gap_name, gap_columns, run_gaps, 0.2 * seconds, &gap) &&
+           write_figures(r, csv_name, columns, run_sizes, 0.8 * seconds, &size) && draw_size(r) &&
+           draw_gap(r) && write_page(r, &size, &gap);
 }

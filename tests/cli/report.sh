@@ -68,8 +68,23 @@ awk -F, '$1 == "plates" && $2 == "paths" && $6 == "auto" { e[$4] += $11 }
     END { f = e[1000] / e[10000]; exit !(f > 2.5 && f < 4) }' page/light.csv ||
     fail "the error does not fall as noise does"
 
+has choice.csv "scene,panel,kind,option,position,value,config,rays,wrong,share,shown,ns_per_ray,build_seconds,seconds_with_build,nodes,tests,bytes" 2
+has size.csv "scene,primitives,contender,peer,rays,wrong,ns_per_ray,nodes,tests,build_seconds,seconds_with_build,bytes_per_primitive" "$((2 * forms))"
+has gap.csv "scene,gap,contender,peer,rays,wrong,ns_per_ray,nodes,tests,build_seconds,seconds_with_build,bytes_per_primitive" "$((6 * (forms - 1)))"
+awk -F, 'NR > 1 && ($9 != 0 || $8 < 100) { exit 1 }' page/choice.csv ||
+    fail "an answer of ours is wrong in choice.csv, or few were judged"
+for file in size gap; do
+    awk -F, 'NR > 1 && $4 == 0 && ($6 != 0 || $5 < 100) { exit 1 }' page/$file.csv ||
+        fail "an answer of ours is wrong in $file.csv, or few were judged"
+done
+for each in $kinds; do
+    [ "$each" = linear ] || [ "$(grep -c ",$each,.*,0,auto," page/choice.csv)" -ge 2 ] ||
+        fail "what $each chooses by itself is not in choice.csv"
+    [ "$(grep -c ",$each,0," page/size.csv)" -ge 2 ] || fail "$each is not in size.csv"
+done
+
 plots=$(find page -name '*.svg' | sort)
-[ "$(wc -l <<<"$plots")" -ge 6 ] || fail "only these plots: $plots"
+[ "$(wc -l <<<"$plots")" = 9 ] || fail "only these plots: $plots"
 for plot in $plots; do
     python3 - "$plot" <<'PYTHON' || fail "$plot is no XML"
 import sys, xml.etree.ElementTree
