@@ -7,6 +7,8 @@
 
 #include "structure.h"
 
+#include <stdio.h>
+
 enum { ACCEL_MOST_REPEATS_BENCH = 51, ACCEL_MOST_PEERS = 4 };
 
 /* The kinds of rays. */
@@ -35,9 +37,10 @@ void accel_free_set(accel_ray_set *set);
 /* One that takes part: one of our structures or a peer. */
 typedef struct accel_contender {
     char name[64];        /* config or peer */
+    const char *kind;     /* what auto has become; ours only */
     bool peer;            /* not ours: single precision, its answers are counted, not judged */
     void *state;          /* an accel, or the peer's scene */
-    double build_seconds; /* wall clock */
+    double build_seconds; /* processor time */
     double bytes;         /* held */
     /* Traces all rays of the set; returns how many hit. What is timed. */
     size_t (*trace)(const struct accel_contender *c, const accel_ray_set *set);
@@ -60,13 +63,17 @@ const char *accel_bench_no_peers(void);
 typedef struct accel_bench {
     const char *scene_name;
     accel_loaded loaded;
+    const char *reference_name;     /* config whose answers all are compared with */
+    accel *reference;               /* the structure of it; also makes the rays */
+    size_t judged;                  /* rays of each kind that linear has judged, at most */
+    uint64_t asked;                 /* rays of each kind that were asked for */
     accel_ray_set sets[ACCEL_SETS]; /* count 0: not asked for */
     accel_contender *at;            /* count of them */
     size_t count;
     unsigned repeats;
 } accel_bench;
 
-/* Judges every answer of our structures: against the first one's, and that against linear for
+/* Judges every answer of our structures: against the reference's, and that against linear for
  * `sample` rays of each set. Counts nodes, tests and the peers' other answers. Prints the first
  * difference and returns false if there is one. */
 bool accel_bench_judge(accel_bench *bench, const accel *linear, size_t sample,
@@ -74,6 +81,23 @@ bool accel_bench_judge(accel_bench *bench, const accel *linear, size_t sample,
 
 /* Times all, taking turns. False where a structure found another number of hits than before. */
 bool accel_bench_time(accel_bench *bench, accel_progress *progress);
+
+/* What is printed of all scenes. */
+typedef struct accel_bench_output {
+    bool table;                      /* tables go to standard output */
+    bool peers;                      /* were asked for */
+    bool headed;                     /* the heads have been printed */
+    FILE *csv;                       /* for the figures, or NULL */
+    double regret_sum, regret_worst; /* of auto over the scenes */
+    size_t regret_count;             /* scenes where it was measured */
+    const char *regret_scene;        /* the worst */
+} accel_bench_output;
+
+/* Prints one scene, judged and timed. */
+void accel_bench_print(accel_bench_output *output, const accel_bench *bench);
+
+/* Prints the regret over all scenes. */
+void accel_bench_print_sum(const accel_bench_output *output);
 
 /* Quantile 0..1 of the times of contender c in set s. */
 double accel_bench_ns(const accel_bench *bench, size_t c, int set, double part);

@@ -25,7 +25,7 @@ static bool report(const accel_bench *b, const char *name, const accel_ray_set *
     const accel_ray *r = &set->rays[i];
     printf(
         "DIFFERENT: %s: %s and %s do not agree on %s ray %zu, from (%a %a %a) along (%a %a %a)\n",
-        b->scene_name, name, b->at[0].name, set->name, i, r->org[0], r->org[1], r->org[2],
+        b->scene_name, name, b->reference_name, set->name, i, r->org[0], r->org[1], r->org[2],
         r->dir[0], r->dir[1], r->dir[2]);
     return false;
 }
@@ -71,7 +71,9 @@ bool accel_bench_judge(accel_bench *b, const accel *linear, size_t sample, accel
 {
     for (int s = 0; s < ACCEL_SETS; s++) {
         const size_t count = b->sets[s].count;
-        const size_t step = sample > 0 && count > sample ? count / sample : 1;
+        const size_t step = count > sample ? count / sample : 1;
+        const size_t judged = (count + step - 1) / step;
+        b->judged = judged > b->judged ? judged : b->judged;
         progress->what = "linear";
         accel_progress_show(progress, b->sets[s].name, -1.0);
         if (count > 0 && !judge_structure(b, NULL, s, linear, step)) {

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "machine.h"
+#include "commit.h"
 
 #include <accel/accel.h>
 #include <stdio.h>
@@ -29,9 +30,19 @@ const char *accel_machine_build(void)
     return "compiled by " ACCEL_COMPILER ", version " ACCEL_VERSION " at " ACCEL_COMMIT;
 }
 
-double accel_machine_seconds(void)
+static double seconds_of(clockid_t clock)
 {
     struct timespec now;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    clock_gettime(clock, &now);
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+double accel_machine_seconds(void)
+{
+    return seconds_of(CLOCK_THREAD_CPUTIME_ID);
+}
+
+double accel_machine_seconds_of_all(void)
+{
+    return seconds_of(CLOCK_PROCESS_CPUTIME_ID);
 }

@@ -16,4 +16,7 @@ const char *accel_machine_build(void);
 /* Seconds of processor time of the calling thread. */
 double accel_machine_seconds(void);
 
+/* The same of all threads together: what a build takes that may use others. */
+double accel_machine_seconds_of_all(void);
+
 #endif

@@ -112,6 +112,17 @@ static int find_name(const accel_command *command, const char *name, size_t leng
     return -1;
 }
 
+/* Is the next word the value of an option that may do without? */
+static bool is_optional_value(const accel_arguments *a, const accel_flag *flag)
+{
+    const char *ending = strrchr(flag->argument, '.');
+    if (a->at >= a->argc || ending == NULL) {
+        return false;
+    }
+    const size_t length = strlen(a->argv[a->at]), own = strcspn(ending, "]");
+    return length > own && memcmp(a->argv[a->at] + length - own, ending, own) == 0;
+}
+
 static int stop(accel_arguments *a, int code)
 {
     a->exit_code = code;
@@ -134,7 +145,8 @@ static int take_flag(accel_arguments *a, int index, const char *attached)
         return stop(a, ACCEL_EXIT_FINE);
     }
     a->value = attached;
-    if (flag->argument != NULL && attached == NULL) {
+    const bool optional = flag->argument != NULL && flag->argument[0] == '[';
+    if (flag->argument != NULL && attached == NULL && (!optional || is_optional_value(a, flag))) {
         if (a->at >= a->argc) {
             return stop(a, accel_complain(a->command, "--%s needs a value: %s", flag->name,
                                           flag->argument));

@@ -16,7 +16,8 @@
 typedef struct accel_flag {
     const char *name;     /* without the dashes */
     char letter;          /* of the short form, or 0 */
-    const char *argument; /* the name of its value in the help, or NULL if it has none */
+    const char *argument; /* the name of its value in the help, or NULL if it has none; in brackets
+                             if it may be left out: "[FILE.csv]" takes a next word in .csv */
     const char *help;     /* one or more lines */
 } accel_flag;
 

@@ -167,7 +167,7 @@ static accel *allocate(const struct accel_kind *kind, const accel_hooks *hooks, 
 accel_status accel_build(accel **out, const accel_scene *scene, const char *config,
                          const accel_hooks *hooks, accel_error *error)
 {
-    static const accel_hooks no_hooks = {NULL, NULL, NULL};
+    static const accel_hooks no_hooks = {.user = NULL};
     accel_error ignored;
     double option[MAX_OPTIONS];
     error = error ? error : &ignored;

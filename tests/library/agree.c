@@ -107,7 +107,7 @@ static void validate_grown(const struct job *j, const accel *a, const char *conf
 static void agree_one(const struct job *j, const struct tested *t, uint64_t first, uint64_t step)
 {
     struct pool pool = {.most = most_bytes};
-    const accel_hooks hooks = {&pool, pool_resize, NULL};
+    const accel_hooks hooks = {.user = &pool, .resize = pool_resize};
     accel *a;
     accel_error error;
     if (accel_build(&a, &j->scene.scene, t->config, &hooks, &error) != ACCEL_OK)

@@ -78,7 +78,8 @@ bool test(const char *kind)
     g.objects.intersect = intersect;
     g.objects.user = &host;
     const accel_scene scene = {&g, 1};
-    const accel_hooks hooks = {nullptr, count, nullptr};
+    accel_hooks hooks = {};
+    hooks.resize = count;
     accel *a;
     accel_error error;
     if (accel_build(&a, &scene, kind, &hooks, &error) != ACCEL_OK)

@@ -85,7 +85,7 @@ static void check_clean(const struct checker *c, const char *config, uint64_t at
 static bool build_failing(const struct test_scene *s, const char *config, struct checker *c,
                           uint64_t expected)
 {
-    const accel_hooks hooks = {c, checked, NULL};
+    const accel_hooks hooks = {.user = c, .resize = checked};
     const uint64_t at = c->fail_at;
     accel *a = (accel *)&a;
     accel_error error;
@@ -251,7 +251,7 @@ static bool watch_progress(void *user, const char *phase, double done)
 static accel_status build_watched(const struct test_scene *s, const char *config, struct watch *w,
                                   accel_error *error)
 {
-    const accel_hooks hooks = {w, checked, watch_progress};
+    const accel_hooks hooks = {.user = w, .resize = checked, .progress = watch_progress};
     accel *a;
     since(&w->last);
     w->longest = 0;

@@ -200,7 +200,7 @@ static void test_many(void **state)
     struct test_scene s;
     size_t kinds;
     struct pool pool = {.most = SIZE_MAX};
-    const accel_hooks hooks = {&pool, pool_resize, NULL};
+    const accel_hooks hooks = {.user = &pool, .resize = pool_resize};
     const accel_kind_info *const *kind = accel_kinds(&kinds);
     scene_make(&s, scene_maker_find("one-triangle"), 1);
     for (uint64_t i = 0; i < scaled_count(20000); i++) {

@@ -310,7 +310,7 @@ static void test_info(void **state)
     const size_t count = tested_configs(&list);
     for (size_t i = 0; i < count; i++) {
         struct pool pool = {.most = SIZE_MAX};
-        const accel_hooks hooks = {&pool, pool_resize, NULL};
+        const accel_hooks hooks = {.user = &pool, .resize = pool_resize};
         accel *a;
         accel_info info;
         assert_int_equal(accel_build(&a, &scene.scene, list[i].config, &hooks, NULL), ACCEL_OK);

@@ -212,9 +212,10 @@ typedef struct accel_scene {
 
 /* ----------------------------------------------------------------- build ---- */
 
-/* All hooks are optional. They must return normally (no exceptions, no longjmp). */
+/* All hooks are optional; set what is not used to zero. Functions must return normally (no
+ * exceptions, no longjmp). */
 typedef struct accel_hooks {
-    void *user; /* handed to both */
+    void *user; /* handed to both functions */
     /* Lua's allocator in one function: to == 0 frees and returns NULL; old == NULL allocates;
      * otherwise resizes. Returns NULL if it cannot, leaving the old block alone. NULL: realloc.
      * Called from the thread that runs accel_build or accel_free; kept until accel_free. Of a
@@ -224,6 +225,11 @@ typedef struct accel_hooks {
     /* Called at least about every 10 ms of a build with the name of the phase and its done part
      * in 0..1; return false to cancel. Never called by queries. */
     bool (*progress)(void *user, const char *phase, double done);
+    /* Rays like those that will come, `pilot_count` of them; a few hundred are enough. The kind
+     * "auto" counts what they would visit before it chooses; they decide no answer. Read during
+     * accel_build only. */
+    const accel_ray *pilot;
+    size_t pilot_count;
 } accel_hooks;
 
 /* Builds the structure that `config` names over `scene`.

@@ -252,7 +252,9 @@ void Accelerator::Build(const SceneData& scene, Task& task)
 
 	AccelProgress progress(scene, task);
 	const accel_scene library_scene = { &geometry, 1 };
-	const accel_hooks hooks = { &progress, NULL, &AccelProgress::Report };
+	accel_hooks hooks = accel_hooks();
+	hooks.user = &progress;
+	hooks.progress = &AccelProgress::Report;
 	accel_error error;
 	accel_status status = accel_build(&structure, &library_scene, config.c_str(), &hooks, &error);
 
