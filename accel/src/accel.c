@@ -22,6 +22,8 @@ const accel_kind_info *const kinds[] = {
     NULL};
 #undef KIND
 
+_Static_assert(sizeof kinds / sizeof *kinds <= MAX_KINDS + 1, "raise MAX_KINDS in kind.h");
+
 const accel_kind_info *const *accel_kinds(size_t *count)
 {
     *count = sizeof kinds / sizeof *kinds - 1;

@@ -2,35 +2,43 @@
  *
  * auto: picks a kind for the scene, then is that kind.
  *
- * Method: build every kind over a sample of the scene, trace a pilot of rays through each, count
- * nodes and tests, and predict
+ * Method: build every kind over a sample of the scene (auto_sample.h), trace a pilot of rays
+ * through each, count nodes, tests and calls of host objects, and predict
  *
- *     time = build(n) + rays * (ray + node * nodes + test * tests)
+ *     time = build(n) + rays * (ray + node * nodes + test * tests + miss * (nodes + tests)
+ *                               + call * calls)
  *
- * with the kind's cost figures and the way its counts grow from the sample's size to n. Counts, not
- * clocks, so the choice is the same on every machine and run. The selector's idea is from
- * Subramanian and Fussell, "Automatic Termination Criteria for Ray Tracing Hierarchies", GI 1991,
- * and Hapala, Karlik and Havran, "When It Makes Sense to Use Uniform Grids for Ray Tracing", 2011:
- * build, measure, decide.
+ * with the kind's cost figures (kind.h) and the way its counts grow from the sample's size to n.
+ * Counts, not clocks, so the choice is the same on every machine and run. The selector's idea is
+ * from Subramanian and Fussell, "Automatic Termination Criteria for Ray Tracing Hierarchies", GI
+ * 1991, and Hapala, Karlik and Havran, "When It Makes Sense to Use Uniform Grids for Ray Tracing",
+ * 2011: build, measure, decide.
  *
- * A sample is thinner than the scene, so rays would pass where they should hit: each sampled
- * primitive is scaled about its centre by sqrt(n / sample), which keeps the sum of surfaces.
- * Host objects are sampled by their boxes; their callbacks are not called.
+ * The pilot: the host's rays where it gives some (accel_hooks.pilot), else rays from random points
+ * of a box three times as large as the scene's towards random points of that; and from what those
+ * hit, rays in random directions: what a path tracer or photon map will ask.
  *
- * Cost: a few milliseconds to tens of them, whatever the scene. Bad at: scenes whose structure a
- * sample of SAMPLE primitives does not show.
+ * Cost: some tens of milliseconds, whatever the scene. Bad at: scenes whose structure a sample does
+ * not show; hosts whose later rays are unlike the pilot.
  */
-#include "kind.h"
-#include "box.h"
+#include "auto_sample.h"
 #include "config.h"
 
 #include <stdio.h>
-#include <string.h>
 
-enum { SAMPLE = 4096, PILOT = 256 };
+/* First rays of the pilot; of more that the host gives, every so many-th. */
+enum { PILOT = 256 };
 
 /* Below this many seconds of predicted linear search, choosing costs more than it can save. */
 #define WORTH_CHOOSING 0.005
+
+/* Nanoseconds that a node or a test waits for memory, for each doubling of the structure's bytes
+ * beyond CACHE. Fitted with the kinds' figures to 24 scenes of up to 130 MB. */
+#define MISS  4.0
+#define CACHE 2e6
+
+/* Nanoseconds of one call of a host's object, if the host does not say. */
+#define CALL 100.0
 
 enum { RAYS };
 
@@ -42,139 +50,25 @@ static const accel_option options[] = {
               .standard = 1e7},
 };
 
-/* The sample as a scene of at most three geometries. */
-struct sample {
-    ARRAY_OF(double) vertices;  /* of the triangles */
-    ARRAY_OF(uint32_t) indices; /* of the triangles: 0, 1, 2, ... */
-    ARRAY_OF(double) spheres;   /* centre, radius */
-    ARRAY_OF(accel_box) boxes;  /* of the objects */
-    accel_geometry geometry[3]; /* in that order */
-    accel_scene scene;
-    accel_box box; /* around all */
-};
-
 /* What is known of one kind. */
 struct candidate {
     const struct accel_kind *kind;
-    double nodes, tests; /* per ray of the pilot */
-    double seconds;      /* predicted for the whole scene */
+    double nodes, tests, calls; /* per ray of the pilot */
+    double bytes;               /* per primitive of the sample */
+    double seconds;             /* predicted for the whole scene */
 };
 
-/* A sampled object stands for its box: hit in the middle of the part inside. */
-static void hit_box(accel_probe *probe)
-{
-    const accel_box *box = (const accel_box *)probe->user + probe->prim;
-    double a = probe->ray->tmin, z = probe->ray->tmax;
-    for (int k = 0; k < 3; k++) {
-        const double t0 = (box->lo[k] - probe->ray->org[k]) / probe->ray->dir[k];
-        const double t1 = (box->hi[k] - probe->ray->org[k]) / probe->ray->dir[k];
-        a = fmax(a, fmin(t0, t1));
-        z = fmin(z, fmax(t0, t1));
-    }
-    if (a <= z)
-        accel_report(probe, 0.5 * (a + z), 0.0, 0.0);
-}
+/* What is the same for all kinds. */
+struct chooser {
+    struct build *build;
+    struct sample sample;
+    double triangles; /* share of the primitives */
+    double call;      /* nanoseconds of a call of an object, mean */
+    struct candidate tried[MAX_KINDS];
+    size_t count; /* of them */
+};
 
-static double scaled(double x, double centre, double scale)
-{
-    return centre + scale * (x - centre);
-}
-
-static bool add_triangle(struct memory *m, struct sample *s, const double *from, double scale)
-{
-    if (!array_extend(m, &s->vertices, 9) || !array_extend(m, &s->indices, 3))
-        return false;
-    double *to = s->vertices.at + s->vertices.count - 9;
-    for (int i = 0; i < 9; i++) {
-        const double *x = from + i % 3;
-        to[i] = scaled(from[i], x[0] / 3 + x[3] / 3 + x[6] / 3, scale);
-    }
-    for (size_t i = s->indices.count - 3; i < s->indices.count; i++)
-        s->indices.at[i] = (uint32_t)i;
-    return true;
-}
-
-static bool add_sphere(struct memory *m, struct sample *s, const double *from, double scale)
-{
-    if (!array_extend(m, &s->spheres, 4))
-        return false;
-    double *to = s->spheres.at + s->spheres.count - 4;
-    memcpy(to, from, 4 * sizeof *to);
-    to[3] *= scale;
-    return true;
-}
-
-static bool add_box(struct memory *m, struct sample *s, const accel_box *from, double scale)
-{
-    if (!array_extend(m, &s->boxes, 1))
-        return false;
-    accel_box *to = s->boxes.at + s->boxes.count - 1;
-    for (int k = 0; k < 3; k++) {
-        const double centre = from->lo[k] + 0.5 * (from->hi[k] - from->lo[k]);
-        to->lo[k] = scaled(from->lo[k], centre, scale);
-        to->hi[k] = scaled(from->hi[k], centre, scale);
-    }
-    return true;
-}
-
-static bool add(struct memory *m, struct sample *s, const struct primitives *p, uint32_t id,
-                double scale)
-{
-    const struct geometry *g = primitives_geometry(p, id);
-    const size_t i = id - g->first;
-    switch (g->type) {
-    case ACCEL_TRIANGLES:
-        return add_triangle(m, s, g->data + 9 * i, scale);
-    case ACCEL_SPHERES:
-        return add_sphere(m, s, g->data + 4 * i, scale);
-    case ACCEL_OBJECTS:
-        break;
-    }
-    return add_box(m, s, &p->box[id], scale);
-}
-
-static void make_scene(struct sample *s)
-{
-    s->geometry[0] = (accel_geometry){.type = ACCEL_TRIANGLES,
-                                      .triangles = {.vertices = s->vertices.at,
-                                                    .vertex_count = (uint32_t)s->vertices.count / 3,
-                                                    .indices = s->indices.at,
-                                                    .count = (uint32_t)s->indices.count / 3}};
-    s->geometry[1] = (accel_geometry){
-        .type = ACCEL_SPHERES,
-        .spheres = {.spheres = s->spheres.at, .count = (uint32_t)s->spheres.count / 4}};
-    s->geometry[2] = (accel_geometry){.type = ACCEL_OBJECTS,
-                                      .objects = {.boxes = s->boxes.at,
-                                                  .count = (uint32_t)s->boxes.count,
-                                                  .intersect = hit_box,
-                                                  .user = s->boxes.at}};
-    s->scene = (accel_scene){s->geometry, 3};
-}
-
-/* Every (n / SAMPLE)-th primitive. */
-static bool take_sample(struct build *build, struct sample *s)
-{
-    const struct primitives *p = &build->a->prims;
-    const size_t n = p->bounded.count, count = n < SAMPLE ? n : SAMPLE;
-    const double scale = sqrt((double)n / (double)count);
-    s->box = box_empty();
-    for (size_t i = 0; i < count; i++) {
-        const uint32_t id = p->bounded.at[i * n / count];
-        box_add(&s->box, &p->box[id]);
-        if (!add(&build->a->memory, s, p, id, scale))
-            return build_no_memory(build);
-    }
-    make_scene(s);
-    return true;
-}
-
-static void free_sample(struct memory *m, struct sample *s)
-{
-    array_free(m, &s->vertices);
-    array_free(m, &s->indices);
-    array_free(m, &s->spheres);
-    array_free(m, &s->boxes);
-}
+/* ------------------------------------------------------------------------- pilot ---- */
 
 /* The i-th number of a fixed sequence in [0, 1): Steele, Lea and Flood's SplitMix, OOPSLA 2014. */
 static double uniform(uint64_t i)
@@ -185,36 +79,61 @@ static double uniform(uint64_t i)
     return (double)((z ^ z >> 31) >> 11) * 0x1p-53;
 }
 
-static double between(const accel_box *b, int k, uint64_t i)
+/* First ray i of the pilot when nobody gives one. */
+static accel_ray line(const accel_box *box, uint64_t i)
 {
-    return b->lo[k] + uniform(i) * (b->hi[k] - b->lo[k]);
+    double from[3], dir[3];
+    for (int k = 0; k < 3; k++) {
+        const double size = box->hi[k] - box->lo[k];
+        from[k] = box->lo[k] - size + 3.0 * uniform(9 * i + (uint64_t)k) * size;
+        dir[k] = box->lo[k] + uniform(9 * i + 3 + (uint64_t)k) * size - from[k];
+    }
+    return accel_ray_from(from, dir);
 }
 
-/* Half the pilot are lines between random points of the box, half leave where those hit, in a
- * random direction: what a path tracer or photon map will ask. */
-static void fly_pilot(const accel *a, const accel_box *box, struct candidate *c)
+static size_t pilot_count(const accel_hooks *hooks)
+{
+    return hooks->pilot_count > 0 && hooks->pilot_count < PILOT ? hooks->pilot_count : PILOT;
+}
+
+static accel_ray first_ray(const struct chooser *c, size_t i)
+{
+    const accel_hooks *hooks = c->build->hooks;
+    if (hooks->pilot_count == 0)
+        return line(&c->sample.box, i);
+    accel_ray ray = hooks->pilot[i * hooks->pilot_count / pilot_count(hooks)];
+    ray.skip = (accel_id){ACCEL_NONE, ACCEL_NONE}; /* it names a primitive of the scene */
+    return ray;
+}
+
+/* Traces the pilot; fills in the counts. */
+static void fly_pilot(struct chooser *c, const accel *a, struct candidate *kind)
 {
     accel_query q = {0};
-    for (uint64_t i = 0; i < PILOT / 2; i++) {
+    const size_t count = pilot_count(c->build->hooks);
+    double rays = 0.0;
+    c->sample.calls = 0;
+    for (size_t i = 0; i < count; i++, rays++) {
+        const accel_ray ray = first_ray(c, i);
+        accel_hit hit;
+        if (!accel_closest(a, &ray, &hit, &q))
+            continue;
         double from[3], dir[3];
         for (int k = 0; k < 3; k++) {
-            from[k] = between(box, k, 9 * i + (uint64_t)k);
-            dir[k] = between(box, k, 9 * i + 3 + (uint64_t)k) - from[k];
+            from[k] = ray.org[k] + hit.t * ray.dir[k];
+            dir[k] = uniform(9 * i + 6 + (uint64_t)k) - 0.5;
         }
-        accel_ray ray = accel_ray_from(from, dir);
-        accel_hit hit;
-        const bool found = accel_closest(a, &ray, &hit, &q);
-        for (int k = 0; k < 3; k++) {
-            ray.org[k] = found ? from[k] + hit.t * dir[k] : from[k];
-            ray.dir[k] = uniform(9 * i + 6 + (uint64_t)k) - 0.5;
-        }
-        if (found)
-            ray.skip = (accel_id){hit.geom, hit.prim};
-        accel_closest(a, &ray, &hit, &q);
+        accel_ray next = accel_ray_from(from, dir);
+        next.skip = (accel_id){hit.geom, hit.prim};
+        accel_closest(a, &next, &hit, &q);
+        rays++;
     }
-    c->nodes = (double)q.nodes / PILOT;
-    c->tests = (double)q.tests / PILOT;
+    kind->nodes = (double)q.nodes / rays;
+    kind->tests = (double)q.tests / rays;
+    kind->calls = (double)c->sample.calls / rays;
 }
+
+/* -------------------------------------------------------------------- prediction ---- */
 
 /* How a count grows when the primitives grow from `from` to `to`. */
 static double growth(enum kind_growth how, double from, double to)
@@ -222,85 +141,131 @@ static double growth(enum kind_growth how, double from, double to)
     switch (how) {
     case GROWS_LIKE_LOG:
         return log2(to + 2) / log2(from + 2);
-    case GROWS_LIKE_CUBE_ROOT:
-        return cbrt(to / from);
+    case GROWS_LIKE_FIFTH_ROOT:
+        return pow(to / from, 0.2);
     case GROWS_LIKE_N:
         break;
     }
     return to / from;
 }
 
-static double predict(const struct build *build, const struct candidate *c)
+/* Nanoseconds of a ray. */
+static double predict_ray(const struct chooser *c, const struct candidate *k)
 {
-    const struct kind_cost *cost = &c->kind->cost;
-    const struct primitives *p = &build->a->prims;
-    const double n = (double)p->bounded.count, from = n < SAMPLE ? n : SAMPLE;
-    const double nodes = c->nodes * growth(cost->growth, from, n);
-    const double tests =
-        c->tests * (cost->growth == GROWS_LIKE_N ? growth(cost->growth, from, n) : 1.0);
-    const double ray = cost->ray + cost->node * nodes + cost->test * p->test_cost * tests;
-    return 1e-9 * (cost->build * n * log2(n + 2) + build->a->option[RAYS] * ray);
+    const struct kind_cost *cost = &k->kind->cost;
+    const double n = (double)c->build->a->prims.bounded.count, from = (double)c->sample.count;
+    const double grown = growth(cost->growth, from, n);
+    const double joined = n > from ? (double)c->sample.joined / from : 0.0;
+    const double mesh = 1.0 - joined * (1.0 - cost->mesh);
+    const double nodes = k->nodes * mesh * grown;
+    const double tests = k->tests * mesh * (cost->growth == GROWS_LIKE_N ? grown : 1.0);
+    const double test = c->triangles * cost->triangle + (1.0 - c->triangles) * cost->other;
+    const double miss = MISS * log2(1.0 + k->bytes * n / CACHE);
+    return cost->ray + (cost->node + miss) * nodes + (test + miss) * tests + c->call * k->calls;
 }
 
-static bool try_kind(struct build *build, const struct sample *s, struct candidate *c)
+static double predict(const struct chooser *c, const struct candidate *k)
+{
+    const double n = (double)c->build->a->prims.bounded.count;
+    const double rays = c->build->a->option[RAYS];
+    return 1e-9 * (k->kind->cost.build * n * log2(n + 2) + rays * predict_ray(c, k));
+}
+
+/* What the scene is made of. */
+static void weigh_primitives(struct chooser *c)
+{
+    const struct primitives *p = &c->build->a->prims;
+    double triangles = 0.0, objects = 0.0, calls = 0.0;
+    for (uint32_t g = 0; g < p->geometry_count; g++) {
+        const struct geometry *geometry = &p->geometry[g];
+        if (geometry->type == ACCEL_TRIANGLES)
+            triangles += geometry->count;
+        if (geometry->type == ACCEL_OBJECTS) {
+            objects += geometry->count;
+            calls += geometry->count * (geometry->cost > 0.0 ? geometry->cost : CALL);
+        }
+    }
+    c->triangles = triangles / p->count;
+    c->call = objects > 0.0 ? calls / objects : 0.0;
+}
+
+/* ------------------------------------------------------------------------ choice ---- */
+
+static bool try_kind(struct chooser *c, struct candidate *k)
 {
     accel *a;
+    struct build *build = c->build;
     struct memory *m = &build->a->memory;
     const accel_hooks hooks = {.user = build->hooks->user, .resize = build->hooks->resize};
-    if (accel_build(&a, &s->scene, c->kind->info.name, &hooks, build->error) != ACCEL_OK)
+    if (accel_build(&a, &c->sample.scene, k->kind->info.name, &hooks, build->error) != ACCEL_OK)
         return false;
-    fly_pilot(a, &s->box, c);
+    fly_pilot(c, a, k);
+    k->bytes = (double)a->memory.bytes / (double)c->sample.count;
     m->peak = m->bytes + a->memory.peak > m->peak ? m->bytes + a->memory.peak : m->peak;
     accel_free(a);
-    c->seconds = predict(build, c);
+    k->seconds = predict(c, k);
     return true;
 }
 
-/* The two best of all kinds that may be chosen. */
-static bool try_kinds(struct build *build, const struct sample *s, struct candidate best[2])
+/* Tries all kinds that may be chosen; the best comes first. */
+static bool try_kinds(struct chooser *c)
 {
-    best[0].seconds = best[1].seconds = (double)INFINITY;
-    for (size_t i = 0; kinds[i]; i++) {
-        struct candidate c = {.kind = (const struct accel_kind *)kinds[i]};
-        if (c.kind->choose)
+    size_t all = 0;
+    while (kinds[all])
+        all++;
+    for (size_t i = 0; i < all; i++) {
+        struct candidate k = {.kind = (const struct accel_kind *)kinds[i]};
+        if (k.kind->choose)
             continue;
-        if (!try_kind(build, s, &c))
+        if (!try_kind(c, &k))
             return false;
-        if (c.seconds < best[0].seconds) {
-            best[1] = best[0];
-            best[0] = c;
-        } else if (c.seconds < best[1].seconds) {
-            best[1] = c;
-        }
-        if (!build_tick(build, (double)(i + 1) / 8))
+        size_t at = c->count++;
+        for (; at > 0 && k.seconds < c->tried[at - 1].seconds; at--)
+            c->tried[at] = c->tried[at - 1];
+        c->tried[at] = k;
+        if (!build_tick(c->build, (double)(i + 1) / (double)all))
             return false;
     }
     return true;
+}
+
+/* Says what was chosen and why. */
+static void explain(const struct chooser *c)
+{
+    const struct candidate *best = &c->tried[0];
+    const bool given = c->build->hooks->pilot_count > 0;
+    build_note(c->build,
+               "auto: %s; pilot of %zu %s and what leaves their hits: %.1f nodes, %.1f "
+               "tests, %.1f calls each",
+               best->kind->info.name, pilot_count(c->build->hooks),
+               given ? "rays of the host" : "lines of its own", best->nodes, best->tests,
+               best->calls);
+    char list[120];
+    int used = 0;
+    for (size_t i = 0; i < c->count && used < (int)sizeof list; i++)
+        used += snprintf(list + used, sizeof list - (size_t)used, " %s %.3g",
+                         c->tried[i].kind->info.name, c->tried[i].seconds);
+    build_note(c->build, "auto: seconds for %g rays:%s", c->build->a->option[RAYS], list);
 }
 
 static bool choose(struct build *build, const struct accel_kind **kind)
 {
     const struct accel_kind *linear = (const struct accel_kind *)kinds[0];
-    const struct primitives *p = &build->a->prims;
-    const double rays = build->a->option[RAYS], n = (double)p->bounded.count;
-    const double tests = 1e-9 * rays * n * linear->cost.test * p->test_cost;
+    const double rays = build->a->option[RAYS], n = (double)build->a->prims.bounded.count;
+    struct chooser c = {.build = build};
     *kind = linear;
-    if (tests < WORTH_CHOOSING) {
+    weigh_primitives(&c);
+    if (1e-9 * rays * n * linear->cost.triangle < WORTH_CHOOSING) {
         build_note(build, "auto: linear; %g rays over %g primitives do not pay for a structure",
                    rays, n);
         return true;
     }
-    struct sample s = {.scene = {NULL, 0}};
-    struct candidate best[2] = {{.kind = NULL}};
-    const bool fine = take_sample(build, &s) && try_kinds(build, &s, best);
-    free_sample(&build->a->memory, &s);
+    const bool fine = sample_take(build, &c.sample) && try_kinds(&c);
+    sample_free(&build->a->memory, &c.sample);
     if (!fine)
         return false;
-    *kind = best[0].kind;
-    build_note(build,
-               "auto: %s; predicted %.3g s for %g rays, %.1f nodes and %.1f tests each; next %s",
-               best[0].kind->info.name, best[0].seconds, rays, best[0].nodes, best[0].tests,
-               best[1].kind ? best[1].kind->info.name : "none");
+    *kind = c.tried[0].kind;
+    explain(&c);
     return true;
 }
 

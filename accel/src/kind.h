@@ -15,7 +15,8 @@
 
 struct query;
 
-enum { MAX_OPTIONS = 12 };
+/* Options of a kind, and kinds, at most. */
+enum { MAX_OPTIONS = 12, MAX_KINDS = 16 };
 
 /* The parts that every structure has. A kind's own struct embeds it as its first member. */
 struct accel {
@@ -37,15 +38,19 @@ struct build {
 };
 
 /* How a kind's nodes per ray grow with the primitives. */
-enum kind_growth { GROWS_LIKE_LOG, GROWS_LIKE_CUBE_ROOT, GROWS_LIKE_N };
+enum kind_growth { GROWS_LIKE_LOG, GROWS_LIKE_FIFTH_ROOT, GROWS_LIKE_N };
 
-/* What a kind costs, for `auto`: nanoseconds, measured with `accel bench`; only their ratios
- * matter. */
+/* What a kind costs, for `auto`: nanoseconds where all is in the cache. Fitted to the counts and
+ * times that `accel bench` prints, by least squares of what a kind takes over the mean of all kinds
+ * on the same rays: how much a scene strains the caches is alike for all and drops out. */
 struct kind_cost {
-    double build; /* per primitive and level, n * log2 n in all */
-    double ray;   /* per ray, before the first node */
-    double node;  /* per node or cell visited */
-    double test;  /* per test, in units of primitives.test_cost */
+    double build;    /* per primitive and level, n * log2 n in all */
+    double ray;      /* per ray, before the first node */
+    double node;     /* per node or cell visited */
+    double triangle; /* per triangle tested */
+    double other;    /* per other primitive tested; of an object, until its callback is called */
+    double mesh;     /* share of the visits to a thinned mesh, whose triangles overlap when scaled,
+                        that remain in the mesh itself, where they do not */
     enum kind_growth growth;
 };
 

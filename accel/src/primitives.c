@@ -198,6 +198,7 @@ static bool copy_header(struct build *build, const accel_geometry *from, uint32_
         g->order = from->objects.order;
         g->intersect = from->objects.intersect;
         g->user = from->objects.user;
+        g->cost = from->objects.cost;
     }
     const size_t doubles = data_doubles(g);
     return doubles == 0 || (g->data = allocate(build, doubles, sizeof(double))) != NULL;

@@ -30,6 +30,7 @@ struct geometry {
     double *data;               /* the triangles or spheres, NULL for objects */
     accel_intersect *intersect; /* of objects */
     void *user;                 /* of objects */
+    double cost;                /* of objects: nanoseconds of a call; 0: not known */
 };
 
 struct primitives {

@@ -191,7 +191,8 @@ typedef struct accel_objects {
     uint32_t count;
     accel_order order;
     accel_intersect *intersect;
-    void *user; /* handed to intersect */
+    void *user;  /* handed to intersect */
+    double cost; /* nanoseconds of one call of intersect, about; 0: not known. For "auto" */
 } accel_objects;
 
 typedef enum accel_type { ACCEL_TRIANGLES = 0, ACCEL_SPHERES, ACCEL_OBJECTS } accel_type;
@@ -225,9 +226,9 @@ typedef struct accel_hooks {
     /* Called at least about every 10 ms of a build with the name of the phase and its done part
      * in 0..1; return false to cancel. Never called by queries. */
     bool (*progress)(void *user, const char *phase, double done);
-    /* Rays like those that will come, `pilot_count` of them; a few hundred are enough. The kind
-     * "auto" counts what they would visit before it chooses; they decide no answer. Read during
-     * accel_build only. */
+    /* First rays that will come, such as every so many-th of a camera, `pilot_count` of them; a few
+     * hundred are enough. The kind "auto" counts what they, and rays that go on from what they hit,
+     * would visit before it chooses; they decide no answer. Read during accel_build only. */
     const accel_ray *pilot;
     size_t pilot_count;
 } accel_hooks;
@@ -312,7 +313,7 @@ typedef struct accel_kind_info {
 /* The kinds compiled into this library, `*count` of them: the table that the parser uses. */
 ACCEL_API const accel_kind_info *const *accel_kinds(size_t *count);
 
-enum { ACCEL_INFO_PHASES = 8, ACCEL_INFO_IDS = 10, ACCEL_INFO_NOTES = 8 };
+enum { ACCEL_INFO_PHASES = 8, ACCEL_INFO_IDS = 10, ACCEL_INFO_NOTES = 12 };
 
 /* What was built. Strings live as long as the structure. */
 typedef struct accel_info {
