@@ -265,6 +265,7 @@ static int judge(race *r, accel *const both[BOTH], accel_progress *progress)
     for (int i = 0; i < BOTH; i++) {
         snprintf(at[i].name, sizeof at[i].name, "%.63s", r->at[i].config);
     }
+    r->bench.reference_name = at[EAGER].name;
     r->bench.at = at;
     r->bench.count = BOTH;
     const bool agree = accel_bench_judge(&r->bench, linear, JUDGED, progress);

@@ -56,7 +56,7 @@ static struct octree_part *pack(struct memory *m, const struct octree_pool *pool
 static struct octree_part *make_part(const struct octree_lazy *lazy,
                                      const struct octree_later *later, const accel_box *tree)
 {
-    static const accel_hooks no_hooks = {NULL, NULL, NULL};
+    static const accel_hooks no_hooks = {.user = NULL};
     accel own = {.kind = lazy->a->kind, .memory = account(lazy), .prims = lazy->a->prims};
     accel_error error;
     struct build build = {.a = &own, .hooks = &no_hooks, .error = &error, .phase = "later"};

@@ -151,7 +151,7 @@ static void grow_failing(const struct test_scene *s, const char *config, struct 
                          uint64_t expected, accel_info *end)
 {
     enum { PATIENCE = 12 };
-    const accel_hooks hooks = {c, checked, NULL};
+    const accel_hooks hooks = {.user = c, .resize = checked};
     const struct checker told = *c;
     accel *a;
     c->fail_at = 0;

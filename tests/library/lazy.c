@@ -209,7 +209,7 @@ static void test_share(void **state)
     make_balls(&s);
     for (int which = 0; which < 4; which++) {
         struct pool pool = {.most = SIZE_MAX};
-        const accel_hooks hooks = {&pool, pool_resize, NULL};
+        const accel_hooks hooks = {.user = &pool, .resize = pool_resize};
         accel *a;
         assert_int_equal(accel_build(&a, &s.scene, "hoo:lazy=on", &hooks, NULL), ACCEL_OK);
         const accel_info start = describe(a);
