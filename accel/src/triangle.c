@@ -15,6 +15,10 @@ typedef long double wide;
 #define SAFE_MIN 0x1p-600
 #define SAFE_MAX 0x1p600
 
+/* Lengths below TINY times UP are finite, and no products of them underflow that did not have to. */
+#define TINY 0x1p-400
+#define UP   0x1p600
+
 /* The vertices in the ray's frame. */
 struct sheared {
     double x[3], y[3], z[3];
@@ -32,6 +36,36 @@ static struct sheared shear(const struct query *q, const double *vertices)
         s.z[i] = q->shear[2] * z;
     }
     return s;
+}
+
+/* Have two corners come to one place of the plane? Then the edge functions add up to 0: no hit. So do
+ * all triangles whose size is below the last bit of their distance, and they come in crowds. */
+static bool collapsed(const struct sheared *s)
+{
+    for (int i = 0; i < 3; i++) {
+        const int j = (i + 1) % 3;
+        if (s->x[i] == s->x[j] && s->y[i] == s->y[j])
+            return true;
+    }
+    return false;
+}
+
+/* Do the signs alone say that a triangle so small that its products underflow is missed? Scaling up
+ * by a power of two is exact. */
+static bool tiny_missed(const struct sheared *s)
+{
+    double x[3], y[3], e[3];
+    for (int i = 0; i < 3; i++) {
+        if (!(fabs(s->x[i]) < TINY && fabs(s->y[i]) < TINY))
+            return false;
+        x[i] = s->x[i] * UP;
+        y[i] = s->y[i] * UP;
+    }
+    for (int i = 0; i < 3; i++) {
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+        e[i] = x[k] * y[j] - y[k] * x[j];
+    }
+    return (e[0] < 0 || e[1] < 0 || e[2] < 0) && (e[0] > 0 || e[1] > 0 || e[2] > 0);
 }
 
 /* The same with exact products. */
@@ -69,7 +103,7 @@ bool triangle_hit(const struct query *q, const double *vertices, double *t, doub
     const double det = e0 + e1 + e2;
     const double scaled = e0 * s.z[0] + e1 * s.z[1] + e2 * s.z[2];
     if (e0 == 0 || e1 == 0 || e2 == 0 || !safe(det) || !safe(scaled))
-        return hit_wide(&s, t, u, v);
+        return !collapsed(&s) && !tiny_missed(&s) && hit_wide(&s, t, u, v);
     *t = scaled / det;
     *u = e1 / det;
     *v = e2 / det;
