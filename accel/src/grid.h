@@ -86,6 +86,9 @@ double grid_list_cost(const struct primitives *p, struct grid_items items);
 /* Halves the number of cells. */
 void grid_coarsen(struct grid_plan *plan);
 
+/* Leaves one cell. */
+void grid_give_up(struct grid_plan *plan);
+
 /* Makes the parts of grid `number` of the pool, whose box is filled in, over the items, not empty;
  * coarser than the plan where its bricks or references would not be in proportion to the items.
  * The progress of the phase runs from `from` to `to`. */

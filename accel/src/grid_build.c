@@ -211,6 +211,16 @@ static bool mark_until(struct maker *m, double budget)
     return true;
 }
 
+/* Do the lists hold most of the items each? Such cells save no tests: piles have them. */
+static bool is_pile(const struct maker *m, const struct grid_plan *plan)
+{
+    const size_t cells = (size_t)plan->cells[0] * plan->cells[1] * plan->cells[2];
+    size_t marked = 0;
+    for (size_t i = m->grid->brick; cells > 1 && i < m->pool->masks.count; i++)
+        marked += (size_t)__builtin_popcountll(m->pool->masks.at[i]);
+    return 2.0 * (double)m->total > (double)m->items.count * (double)marked && marked > 1;
+}
+
 /* Frames the grid and marks its cells, coarser until the references are within bounds. */
 static bool mark_cells(struct maker *m, struct grid *g, struct grid_plan *plan)
 {
@@ -221,12 +231,16 @@ static bool mark_cells(struct maker *m, struct grid *g, struct grid_plan *plan)
             grid_coarsen(plan);
         if (!make_frame(m, g, plan->cells) || !mark_until(m, budget))
             return false;
-        if ((double)m->total <= budget)
+        const bool over = (double)m->total > budget;
+        if (!over && !is_pile(m, plan))
             return true;
         m->pool->planes.count = planes;
         m->pool->masks.count = m->pool->firsts.count = bricks;
         m->done = 0.0;
-        grid_coarsen(plan);
+        if (over)
+            grid_coarsen(plan);
+        else
+            grid_give_up(plan);
     }
 }
 

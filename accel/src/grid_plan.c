@@ -221,6 +221,12 @@ void grid_coarsen(struct grid_plan *plan)
     plan->coarser = true;
 }
 
+void grid_give_up(struct grid_plan *plan)
+{
+    plan->cells[0] = plan->cells[1] = plan->cells[2] = 1;
+    plan->coarser = true;
+}
+
 struct grid_plan grid_plan(const struct primitives *p, const struct grid_pool *pool,
                            const accel_box *box, struct grid_items items, double density)
 {

@@ -15,7 +15,8 @@ typedef long double wide;
 #define SAFE_MIN 0x1p-600
 #define SAFE_MAX 0x1p600
 
-/* Lengths below TINY times UP are finite, and no products of them underflow that did not have to. */
+/* Lengths below TINY times UP are finite, and no products of them underflow that did not have to.
+ */
 #define TINY 0x1p-400
 #define UP   0x1p600
 
@@ -38,8 +39,8 @@ static struct sheared shear(const struct query *q, const double *vertices)
     return s;
 }
 
-/* Have two corners come to one place of the plane? Then the edge functions add up to 0: no hit. So do
- * all triangles whose size is below the last bit of their distance, and they come in crowds. */
+/* Have two corners come to one place of the plane? Then the edge functions add up to 0: no hit. So
+ * do all triangles whose size is below the last bit of their distance, and they come in crowds. */
 static bool collapsed(const struct sheared *s)
 {
     for (int i = 0; i < 3; i++) {
