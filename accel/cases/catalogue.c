@@ -12,16 +12,25 @@
     {                                                                                              \
         "G4", name, "300 triangles, " #offset " off the origin", make_shifted, offset, 2000, 0     \
     }
+/* A ray at an edge of a pile redoes every copy in 113 bits. */
 #define COPIES(name, count)                                                                        \
     {                                                                                              \
         "G8", name, "one triangle, " #count " times", make_coincident, count,                      \
-            (count) > 1000 ? 8 : 40, 0                                                             \
+            (count) > 100000 ? 4                                                                   \
+            : (count) > 1000 ? 12                                                                  \
+                             : 200,                                                                \
+            0                                                                                      \
+    }
+#define SPLIT(name, count)                                                                         \
+    {                                                                                              \
+        "G12", name, "a square, split at random into " #count " triangles", make_split_square,     \
+            count, (count) > 5000 ? 200 : 1000, 10                                                 \
     }
 
 const struct scene_maker scene_makers[] = {
     {"G1", "soup", "1,000 triangles, edges 1e-3..1", make_soup, 1000, 5000, 0},
-    {"G1", "soup-20k", "20,000 triangles, edges 1e-3..1", make_soup, 20000, 1000, 0},
-    {"G1", "soup-100k", "100,000 triangles, edges 1e-3..1", make_soup, 100000, 100, 0},
+    {"G1", "soup-20k", "20,000 triangles, edges 1e-3..1", make_soup, 20000, 5000, 0},
+    {"G1", "soup-100k", "100,000 triangles, edges 1e-3..1", make_soup, 100000, 5000, 0},
     {"G2", "sizes", "1,000 triangles, edges 1e-12..1", make_log_sizes, 1000, 5000, 0},
     SCALED("scale-1e-310", 1e-310),
     SCALED("scale-1e-300", 1e-300),
@@ -56,15 +65,22 @@ const struct scene_maker scene_makers[] = {
     COPIES("copies-512", 512),
     COPIES("copies-65535", 65535),
     COPIES("copies-65536", 65536),
+    COPIES("copies-1000000", 1000000),
     {"G9", "nested-spheres", "spheres of radius 2^-i, one centre", make_nested, 0, 1000, 0},
     {"G9", "nested-boxes", "boxes of side 2^-i, one centre", make_nested, 1, 1000, 0},
     {"G9", "nested-triangles", "triangles of size 2^-i, one centre", make_nested, 2, 1000, 0},
     {"G10", "series", "triangles at 2^-i and 1 - 2^-i", make_series, 1000, 2000, 0},
     {"G11", "lattice", "faces on the planes of an 8 x 8 x 8 lattice", make_lattice, 8, 20000, 0},
     {"G12", "ball-mesh", "closed sphere of 2,048 triangles", make_ball_mesh, 4, 10000, 0},
-    {"G12", "split-square", "a square, split at random into 4..8192 triangles", make_split_square,
-     0, 1000, 10},
-    {"G12", "terrain", "a height field, 32 x 32", make_terrain, 32, 5000, 0},
+    SPLIT("split-4", 4),
+    SPLIT("split-16", 16),
+    SPLIT("split-64", 64),
+    SPLIT("split-256", 256),
+    SPLIT("split-1024", 1024),
+    SPLIT("split-4096", 4096),
+    SPLIT("split-16384", 16384),
+    SPLIT("split-65536", 65536),
+    {"G12", "terrain", "a height field, 32 x 32", make_terrain, 32, 10000, 0},
     {"G12", "fan", "closed double fans of 3..64", make_fan, 0, 200, 62},
     {"G13", "stadium", "100,000 triangles in 1e-3 of a scene of 1e3", make_stadium, 6, 2000, 0},
     {"G14", "huge-and-tiny", "spheres of 1e7 and 1e-6, boxes, infinite planes", make_huge_and_tiny,

@@ -54,12 +54,13 @@ void leak_make(struct test_scene *s, const struct leak_mesh *m, uint64_t seed)
     scene_close(s);
 }
 
-static void aim(struct dice *d, const double *t, double at[3])
+/* On a triangle, `round` by round: its three corners, a point of each edge, a point inside. */
+static void aim(struct dice *d, const double *t, uint64_t round, double at[3])
 {
-    const uint32_t i = dice_below(d, 3), j = (i + 1) % 3, l = (i + 2) % 3;
-    const uint32_t what = dice_below(d, 4);
-    const double u = what == 0 ? 0 : what == 1 ? dice_below(d, 17) / 16.0 : dice_unit(d);
-    const double v = what == 3 ? (1 - u) * dice_unit(d) : 0;
+    const uint32_t what = (uint32_t)(round % LEAK_ROUNDS);
+    const uint32_t i = what % 3, j = (i + 1) % 3, l = (i + 2) % 3;
+    const double u = what < 3 ? 0 : dice_chance(d, 0.5) ? dice_below(d, 17) / 16.0 : dice_unit(d);
+    const double v = what == 6 ? (1 - u) * dice_unit(d) : 0;
     for (uint32_t k = 0; k < 3; k++)
         at[k] =
             t[3 * i + k] + u * (t[3 * j + k] - t[3 * i + k]) + v * (t[3 * l + k] - t[3 * i + k]);
@@ -69,7 +70,7 @@ bool leak_ray(const struct leak_mesh *m, const struct test_scene *s, struct dice
               accel_ray *ray)
 {
     double at[3], org[3], dir[3];
-    aim(d, s->part->data + 9 * (size_t)(i % s->part->count), at);
+    aim(d, s->part->data + 9 * (size_t)(i % s->part->count), i / s->part->count, at);
     if (!m->counts(at))
         return false;
     m->from(d, s, at, org);
@@ -93,4 +94,14 @@ const struct leak_mesh leak_balls[] = {
 
 const struct leak_mesh leak_fan = {"fan", anything, in_fan, 1, 0};
 const struct leak_mesh leak_terrain = {"terrain", in_square, over_field, 1, 0};
-const struct leak_mesh leak_square = {"split-square", in_square, over_field, 1, 0};
+const struct leak_mesh leak_squares[] = {
+    {"split-4", in_square, over_field, 1, 0},
+    {"split-16", in_square, over_field, 1, 0},
+    {"split-64", in_square, over_field, 1, 0},
+    {"split-256", in_square, over_field, 1, 0},
+    {"split-1024", in_square, over_field, 1, 0},
+    {"split-4096", in_square, over_field, 1, 0},
+    {"split-16384", in_square, over_field, 1, 0},
+    {"split-65536", in_square, over_field, 1, 0},
+    {NULL, NULL, NULL, 0, 0},
+};

@@ -27,12 +27,18 @@ struct leak_mesh {
 /* One closed ball, at scales and offsets; ended by a NULL scene. */
 extern const struct leak_mesh leak_balls[];
 
-extern const struct leak_mesh leak_fan, leak_terrain, leak_square;
+/* The square split into 4..65,536 triangles; the same. */
+extern const struct leak_mesh leak_squares[];
+
+extern const struct leak_mesh leak_fan, leak_terrain;
 
 /* Makes its scene; ends with scene_free. */
 void leak_make(struct test_scene *s, const struct leak_mesh *m, uint64_t seed);
 
-/* The i-th ray. False: its target does not count. */
+/* With that many rays for each triangle every corner and every edge of it is shot at. */
+enum { LEAK_ROUNDS = 7 };
+
+/* The i-th ray: at triangle i % n of n, in round i / n. False: its target does not count. */
 bool leak_ray(const struct leak_mesh *m, const struct test_scene *s, struct dice *d, uint64_t i,
               accel_ray *ray);
 

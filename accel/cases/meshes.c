@@ -102,15 +102,13 @@ void make_ball_mesh(struct test_scene *s, struct dice *d, double levels)
 
 /* Splits random triangles of the square 0..1 at random points inside, 1 to 3: no vertex ever lies
  * on a neighbour's edge. */
-void make_split_square(struct test_scene *s, struct dice *d, double unused)
+void make_split_square(struct test_scene *s, struct dice *d, double triangles)
 {
-    (void)unused;
     struct part *p = scene_part(s, ACCEL_TRIANGLES);
     const double tilt = dice_unit(d);
     double x[4][3] = {{0, 0, 0}, {1, 0, tilt}, {1, 1, 0}, {0, 1, -tilt}};
     quad(p, x);
-    const uint32_t count = 4u << dice_below(d, 12);
-    while (p->count < count) {
+    while (p->count < (uint32_t)triangles) {
         double *t = p->data + 9 * (size_t)dice_below(d, p->count), m[3], a[3], b[3], c[3];
         const double u = dice_range(d, 0.05, 0.45), v = dice_range(d, 0.05, 0.45);
         for (int k = 0; k < 3; k++) {

@@ -304,7 +304,7 @@ static accel_ray far_ray(const struct test_scene *s, const accel *judge, struct 
     return towards(org, to);
 }
 
-static const char *const for_special[] = {"scale-1", "mixed", "lattice", "nested-spheres", NULL};
+static const char *const for_special[] = {"scale-1", "mixed", "lattice", "huge-and-tiny", NULL};
 static const char *const for_origins[] = {"lattice", "ball-mesh", "stack", "mixed", NULL};
 static const char *const for_lattice[] = {"lattice", "stack", NULL};
 static const char *const for_ends[] = {"soup", "mixed", "twins", "lattice", "exotic", NULL};

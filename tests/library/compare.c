@@ -79,6 +79,28 @@ static void ask_closest(const accel *a, const accel_ray *ray, accel_query *q, st
         to->illegal = "accel_closest: the skipped primitive";
 }
 
+/* Whether the header says that a ray is refused. */
+static bool must_refuse(const accel_ray *ray)
+{
+    bool zero = true, finite = true;
+    for (int k = 0; k < 3; k++) {
+        zero = zero && ray->dir[k] == 0.0;
+        finite = finite && isfinite(ray->org[k]) && isfinite(ray->dir[k]);
+    }
+    return zero || !finite || isnan(ray->tmin) || isnan(ray->tmax);
+}
+
+/* Each query of a ray that is refused is counted, and ends before the first node. */
+static void check_refused(const accel_ray *ray, const accel_query *q, uint64_t queries,
+                          struct answer *to)
+{
+    const bool refused = must_refuse(ray);
+    if (q->refused != (refused ? queries : 0))
+        to->illegal = refused ? "not refused" : "refused";
+    else if (refused && (q->nodes > 0 || q->tests > 0))
+        to->illegal = "refused after a walk";
+}
+
 struct answer ask(const accel *a, const accel_ray *ray, bool deep)
 {
     struct answer to = {.all = HASH_START, .ids = HASH_START};
@@ -88,6 +110,7 @@ struct answer ask(const accel *a, const accel_ray *ray, bool deep)
     to.any = accel_any(a, ray, &q);
     if (to.any != to.hit)
         to.illegal = "accel_any and accel_closest disagree";
+    check_refused(ray, &q, 2, &to);
     if (deep) {
         const bool ended = accel_all(a, ray, gather_hit, &g, &q);
         if (ended != (to.all_count < ALL_HITS))
@@ -98,6 +121,25 @@ struct answer ask(const accel *a, const accel_ray *ray, bool deep)
     }
     to.refused = q.refused;
     to.outside = q.outside;
+    return to;
+}
+
+struct answer ask_pile(const accel *one, const accel_ray *ray, uint32_t copies, bool deep)
+{
+    struct answer to = ask(one, ray, deep);
+    struct gathering g = {ray, &to, true, {0, 0}};
+    accel_hit hit = to.closest;
+    if (to.all_count > 1)
+        to.illegal = "the primitive of a pile is hit twice";
+    const bool holds = to.id_count > 0;
+    to.all = to.ids = HASH_START;
+    to.all_count = to.id_count = 0;
+    if (!deep)
+        return to;
+    for (hit.prim = 0; to.hit && hit.prim < copies && gather_hit(&g, &hit); hit.prim++)
+        ;
+    for (accel_id id = {0, 0}; holds && id.prim < copies && gather_id(&g, id); id.prim++)
+        ;
     return to;
 }
 
@@ -113,13 +155,14 @@ bool same_answer(const struct answer *a, const struct answer *b)
 /* ---------------------------------------------------------------- configs ---- */
 
 static void add_config(struct tested **list, size_t *count, const char *kind, const char *key,
-                       const char *value)
+                       const char *value, bool form)
 {
     *list = must_resize(*list, (*count + 1) * sizeof **list);
     struct tested *t = &(*list)[(*count)++];
     /* parts are there only where lazy is on */
     const bool part = key && strcmp(key, "part") == 0;
-    t->standard = !key || (part && strcmp(value, "1") == 0);
+    t->standard = !key;
+    t->form = form || (part && strcmp(value, "1") == 0);
     if (key)
         snprintf(t->config, sizeof t->config, "%s:%s%s=%s", kind, part ? "lazy=on," : "", key,
                  value);
@@ -144,7 +187,7 @@ static void add_numbers(struct tested **list, size_t *count, const char *kind,
         char text[40];
         snprintf(text, sizeof text, "%.15g", value[i]);
         if (i == 0 || value[i] > value[i - 1])
-            add_config(list, count, kind, o->key, text);
+            add_config(list, count, kind, o->key, text, false);
     }
 }
 
@@ -154,11 +197,12 @@ size_t tested_configs(struct tested **list)
     const accel_kind_info *const *kind = accel_kinds(&kinds);
     *list = NULL;
     for (size_t i = 0; i < kinds; i++) {
-        add_config(list, &count, kind[i]->name, NULL, NULL);
+        add_config(list, &count, kind[i]->name, NULL, NULL, true);
         for (size_t j = 0; j < kind[i]->option_count; j++) {
             const accel_option *o = &kind[i]->options[j];
             for (size_t w = 0; o->words && o->words[w]; w++)
-                add_config(list, &count, kind[i]->name, o->key, o->words[w]);
+                add_config(list, &count, kind[i]->name, o->key, o->words[w],
+                           (double)w != o->standard);
             if (!o->words)
                 add_numbers(list, &count, kind[i]->name, o);
         }

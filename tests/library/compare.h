@@ -32,10 +32,15 @@ uint64_t answer_hash(uint64_t hash, const struct answer *a);
 #define HASH_START 0xcbf29ce484222325u
 uint64_t hash_bytes(uint64_t hash, const void *bytes, size_t size);
 
+/* The answer to a pile of `copies` of one primitive, from a structure over one of them. */
+struct answer ask_pile(const accel *one, const accel_ray *ray, uint32_t copies, bool deep);
+
 /* One config string to test. */
 struct tested {
     char config[120];
-    bool standard; /* sees every ray: options at their defaults, or the smallest of lazy parts */
+    bool standard; /* all options at their defaults */
+    bool form;     /* the same, or one names another form, or the smallest of lazy parts: what tests
+                      try in full */
 };
 
 /* All kinds, each with its defaults, then with each word of each option, the ends of each range

@@ -30,7 +30,7 @@ static const struct golden table[] = {
     {"series", "mix", 0xea43e13d8f5e37f6},
     {"lattice", "lattice-lines", 0xf261267de932d592},
     {"ball-mesh", "origin-on", 0x9d395e6e38468244},
-    {"split-square", "mix", 0x334dfc1ac5445a9c},
+    {"split-1024", "mix", 0x051d6e2ce67ef2ac},
     {"terrain", "mix", 0x478c3b30de6e6b2c},
     {"fan", "mix", 0xca4cd2247656bac0},
     {"huge-and-tiny", "mix", 0xa206e53ccfb2fbcd},
