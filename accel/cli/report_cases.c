@@ -208,7 +208,7 @@ static bool run_generic(cases *x, double seconds)
     return fine;
 }
 
-/* Not the million copies where there is no time: to build them in every form takes half a minute. */
+/* Not the million copies where there is no time: every form takes half a minute to build them. */
 static bool is_listed(const struct scene_maker *m, double each)
 {
     return strcmp(m->test, "G1") != 0 && (each > 2.0 || strcmp(m->name, "copies-1000000") != 0);
