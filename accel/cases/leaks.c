@@ -54,7 +54,8 @@ void leak_make(struct test_scene *s, const struct leak_mesh *m, uint64_t seed)
     scene_close(s);
 }
 
-/* On a triangle, `round` by round: its three corners, a point of each edge, a point inside. */
+/* On a triangle, `round` by round: its three corners, a point of each edge, a point inside. Which
+ * comes first differs from triangle to triangle. */
 static void aim(struct dice *d, const double *t, uint64_t round, double at[3])
 {
     const uint32_t what = (uint32_t)(round % LEAK_ROUNDS);
@@ -70,7 +71,8 @@ bool leak_ray(const struct leak_mesh *m, const struct test_scene *s, struct dice
               accel_ray *ray)
 {
     double at[3], org[3], dir[3];
-    aim(d, s->part->data + 9 * (size_t)(i % s->part->count), i / s->part->count, at);
+    const uint64_t triangle = i % s->part->count, round = i / s->part->count + triangle;
+    aim(d, s->part->data + 9 * (size_t)triangle, round, at);
     if (!m->counts(at))
         return false;
     m->from(d, s, at, org);

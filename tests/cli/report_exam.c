@@ -115,7 +115,8 @@ static void leaks(void **state)
 {
     (void)state;
     accel_exam e;
-    assert_true(accel_exam_make(&e, (accel_exam_subject){.leaks = leak_balls}, 0.0, 4096, 4096));
+    const size_t rays = LEAK_ROUNDS * 2048;
+    assert_true(accel_exam_make(&e, (accel_exam_subject){.leaks = leak_balls}, 0.0, rays, rays));
     assert_int_equal(e.judge, ACCEL_BY_HIT);
     honest(&e);
     struct test_scene s;
