@@ -21,7 +21,8 @@ logs=$build/logs
 packages_build=(ca-certificates gcc g++ make cmake pkg-config libassimp-dev libopenexr-dev
     libpng-dev librandom123-dev)
 packages_stock=(povray povray-includes)
-packages_tests=(povray-examples libcmocka-dev libembree-dev gnuplot-nox clang)
+packages_tests=(povray-examples libcmocka-dev libembree-dev gnuplot-nox
+    libxml2-utils clang)
 
 say() { printf '%s\n' "$*"; }
 

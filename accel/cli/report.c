@@ -42,14 +42,27 @@ typedef struct request {
     const char *only; /* a part, or NULL */
 } request;
 
+static bool is_asked(const request *q, size_t i)
+{
+    return q->only == NULL || strcmp(q->only, parts[i].name) == 0;
+}
+
+/* Each part gets its share of the time that is left, so that one that took longer shortens the
+ * others. */
 static bool run_parts(accel_reporting *r, const request *q)
 {
+    const double end = r->progress.start + r->seconds;
     for (size_t i = 0; i < PARTS; i++) {
-        if (q->only != NULL && strcmp(q->only, parts[i].name) != 0) {
+        double shares = 0.0;
+        for (size_t k = i; k < PARTS; k++) {
+            shares += is_asked(q, k) ? parts[k].share : 0.0;
+        }
+        if (!is_asked(q, i)) {
             continue;
         }
         r->progress.what = parts[i].name;
-        if (!parts[i].run(r, r->seconds * (q->only != NULL ? 1.0 : parts[i].share))) {
+        const double left = fmax(0.0, end - accel_seconds());
+        if (!parts[i].run(r, left * parts[i].share / shares)) {
             return false;
         }
     }

@@ -166,7 +166,9 @@ void accel_cases_page(accel_reporting *r, const accel_case *rows, size_t count)
         "in fast mode it is wrong somewhere in %zu of %zu cases, in robust mode in %zu. %s shot "
         "the "
         "same rays in %zu cases and is wrong in %zu; more than a thousandth off in distance counts "
-        "as wrong for it.",
+        "as wrong for it. The mix of rays is hostile: of six rays one aims at nothing, the others "
+        "at "
+        "vertices, along edges, inside, along an axis through a vertex, and grazing.",
         t.asked, t.wrong, t.fast, t.cases, t.robust,
         version != NULL ? version : "POV-Ray (not installed on this machine)", t.povray,
         t.povray_wrong);

@@ -289,7 +289,7 @@ static bool write_page(accel_reporting *r, const comparison *all)
     snprintf(caption, sizeof caption,
              "Time per ray (right is slower) against the share of wrong answers (down is better). "
              "Where none of N answers was wrong, the point stands at 1/N with an arrow down: read "
-             "&ldquo;&lt; 1/N&rdquo;. <b>Where we lose:</b> time. On the harmless first panel the "
+             "“&lt; 1/N”. <b>Where we lose:</b> time. On the harmless first panel the "
              "fastest of ours takes %.1f times as long as the fastest of Embree's four modes, and "
              "on %zu of the %zu scenes one of those has fewer than one wrong answer in a thousand. "
              "Where Embree is far left at a high share it sees little of the scene.",

@@ -34,14 +34,20 @@ static void make_scene_of(const accel_exam_subject *subject, struct test_scene *
 
 /* A ray along an integer line, and the first that it hits; its `under` is 0 where it hits nothing.
  * Scenes are those in which no line hits more than ALL. */
-static accel_ray integer_ray(const struct test_scene *s, struct dice *d, struct crossing *first)
+static accel_ray integer_ray(const struct test_scene *s, struct dice *d, accel_first *first)
 {
     enum { ALL = 300 };
     struct crossing all[ALL];
     struct line line;
     const accel_ray ray = lattice_line(s, d, &line);
     const uint32_t count = lattice_crossings(s, &line, false, all, ALL);
-    *first = count > 0 ? all[0] : (struct crossing){.under = 0};
+    *first = (accel_first){.tie_count = 0};
+    for (uint32_t i = 0; i < count && first->tie_count < ACCEL_MOST_TIES; i++) {
+        if ((__int128)all[i].over * all[0].under == (__int128)all[0].over * all[i].under) {
+            first->crossing = all[0];
+            first->ties[first->tie_count++] = (accel_id){all[i].geom, all[i].prim};
+        }
+    }
     return ray;
 }
 
@@ -362,13 +368,24 @@ static bool is_right(const accel_exam *e, const accel_contender *c, size_t i)
     case ACCEL_BY_HIT:
         return same && found;
     case ACCEL_BY_INTEGERS:
-        return same && found == (e->exact[i].under != 0) &&
-               (!found || crossing_is(&e->exact[i], &hit));
+        return same && found == (e->exact[i].crossing.under != 0) &&
+               (!found || crossing_is(&e->exact[i].crossing, &hit));
     case ACCEL_BY_ORACLE:
         return same && oracle_agrees(&e->right[i], found, &hit);
     default:
         return same;
     }
+}
+
+/* One of those that are hit first, or nothing where nothing is. */
+static bool is_tie(const accel_first *first, accel_id got)
+{
+    for (uint32_t i = 0; i < first->tie_count; i++) {
+        if (first->ties[i].geom == got.geom && first->ties[i].prim == got.prim) {
+            return true;
+        }
+    }
+    return first->tie_count == 0 && got.geom == ACCEL_NONE;
 }
 
 /* One answer of a peer. */
@@ -386,8 +403,7 @@ static bool names_right(const accel_exam *e, const struct judgement *right,
         return found;
     }
     if (e->judge == ACCEL_BY_INTEGERS) {
-        const struct crossing *c = &e->exact[i];
-        return found == (c->under != 0) && (!found || (got.geom == c->geom && got.prim == c->prim));
+        return is_tie(&e->exact[i], got);
     }
     if (right[i].verdict != HIT) {
         return right[i].verdict == UNDECIDED || !found;

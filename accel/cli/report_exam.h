@@ -40,20 +40,30 @@ typedef struct accel_exam_subject {
     uint64_t seed;                   /* 0 stands for 1 */
 } accel_exam_subject;
 
+enum { ACCEL_MOST_TIES = 32 };
+
+/* What an integer line hits first, and all that it hits at the same t: which of them a peer names
+ * is its own affair. */
+typedef struct accel_first {
+    struct crossing crossing; /* the right one; under is 0 where nothing is hit */
+    accel_id ties[ACCEL_MOST_TIES];
+    uint32_t tie_count;
+} accel_first;
+
 /* Rays on one scene, and what is right. */
 typedef struct accel_exam {
     accel_judge judge;
-    struct test_scene *scene; /* owned */
-    accel *linear;            /* over it, owned */
-    accel_ray_set set;        /* the rays; hits: what linear answers */
-    struct judgement *right;  /* by the oracle, for each ray, or NULL */
-    struct judgement *single; /* the same of what peers are given, or NULL */
-    struct crossing *exact;   /* by integers, or NULL; under is 0 where nothing is hit */
-    size_t decided;           /* rays that count */
-    size_t decided_peer;      /* of them, those that a peer can be asked */
-    size_t decided_single;    /* the same, of what peers are given */
-    accel_ray_set peer_set;   /* rays within a peer's range: what it is timed on */
-    bool peers;               /* Embree knows all of its primitives */
+    struct test_scene *scene;  /* owned */
+    accel *linear;             /* over it, owned */
+    accel_ray_set set;         /* the rays; hits: what linear answers */
+    struct judgement *right;   /* by the oracle, for each ray, or NULL */
+    struct judgement *single;  /* the same of what peers are given, or NULL */
+    struct accel_first *exact; /* by integers */
+    size_t decided;            /* rays that count */
+    size_t decided_peer;       /* of them, those that a peer can be asked */
+    size_t decided_single;     /* the same, of what peers are given */
+    accel_ray_set peer_set;    /* rays within a peer's range: what it is timed on */
+    bool peers;                /* Embree knows all of its primitives */
 } accel_exam;
 
 /* Makes scene and rays and has them judged; takes about `seconds`: the count of rays, from `least`

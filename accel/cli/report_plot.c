@@ -6,6 +6,7 @@
  * too.
  */
 #include "report.h"
+#include "report_svg.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -16,6 +17,9 @@
 
 /* What gnuplot says of a mistake goes there, in the report's folder. */
 static const char complaints[] = "gnuplot.txt";
+
+/* A plot beyond it is left as it is. */
+enum { MOST_BYTES = 4 << 20 };
 
 /* Never returns. */
 static _Noreturn void run_gnuplot(const char *folder, const char *output, int input)
@@ -119,6 +123,31 @@ static void first_complaint(accel_reporting *r, char *line, int size)
     }
 }
 
+/* Reads the plot back and writes it smaller. */
+static bool shrink(accel_reporting *r, const accel_plot *plot)
+{
+    char name[48];
+    char *text = calloc(MOST_BYTES, 1);
+    snprintf(name, sizeof name, "%s.svg", plot->name);
+    FILE *file = accel_folder_file(&r->folder, name, "r");
+    const size_t read = file != NULL && text != NULL ? fread(text, 1, MOST_BYTES - 1, file) : 0;
+    if (file != NULL) {
+        fclose(file);
+    }
+    bool fine = read > 0;
+    if (fine && read < MOST_BYTES - 1) {
+        accel_svg_shrink(text);
+        file = accel_folder_file(&r->folder, name, "w");
+        fine = file != NULL && fputs(text, file) >= 0;
+        fine = file != NULL && fclose(file) == 0 && fine;
+    }
+    free(text);
+    if (!fine) {
+        accel_complain(r->command, "cannot write %s; nothing was written", name);
+    }
+    return fine;
+}
+
 bool accel_plot_close(accel_reporting *r, accel_plot *plot)
 {
     const bool sent = fclose(plot->script) == 0;
@@ -131,7 +160,7 @@ bool accel_plot_close(accel_reporting *r, accel_plot *plot)
         return false;
     }
     accel_folder_remove(&r->folder, complaints);
-    return true;
+    return shrink(r, plot);
 }
 
 /* Full for a kind as it comes, hollow for another form of it. */

@@ -105,7 +105,7 @@ static void write_object(FILE *f, const struct test_scene *s)
 /* What is right for ray i, as the macro below takes it; -1 if nobody says so. */
 static int right_answer(const accel_exam *e, size_t i, double length, double *t)
 {
-    const struct crossing *c = &e->exact[i];
+    const struct crossing *c = &e->exact[i].crossing;
     *t = 1.0;
     switch (e->judge) {
     case ACCEL_BY_HIT:
