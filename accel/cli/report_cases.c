@@ -218,6 +218,9 @@ static bool is_listed(const struct scene_maker *m, double each)
 static size_t count_cases(void)
 {
     size_t count = 3;
+    for (const struct known *c = known_cases; c->name != NULL; c++) {
+        count++;
+    }
     for (const struct scene_maker *m = scene_makers; m->name != NULL; m++) {
         count += is_listed(m, 0.0);
     }
@@ -265,6 +268,16 @@ static bool run_families(cases *x, double each)
 }
 
 /* Judges that need rays of their own. */
+static bool run_known(cases *x, double each)
+{
+    bool fine = true;
+    for (const struct known *c = known_cases; fine && c->name != NULL; c++) {
+        fine = run_case(x, (accel_case){.test = "G6", .name = c->name, .meaning = c->origin},
+                        (accel_exam_subject){.known = c}, 0, each, 1);
+    }
+    return fine;
+}
+
 static bool run_special(cases *x, double each)
 {
     static const char *const names[] = {"closed-mesh", "closed-mesh-1e5"};
@@ -296,8 +309,8 @@ bool accel_report_cases(accel_reporting *r, double seconds)
     x->csv = csv;
     x->povray = accel_povray_version(r) != NULL;
     const double each = seconds / (double)(count_cases() + 1);
-    bool fine = run_generic(x, each) && run_scenes(x, each) && run_special(x, each) &&
-                run_families(x, each);
+    bool fine = run_generic(x, each) && run_scenes(x, each) && run_known(x, each) &&
+                run_special(x, each) && run_families(x, each);
     accel_field_free(&x->field);
     if (!fine) {
         fclose(csv);

@@ -23,6 +23,9 @@ static const struct topic {
      "(bounding/boundingbox.h:83)"},
     {"G5", "slivers, grazing rays",
      "a hit at t = 12,291 on a triangle whose corners are all nearer than 600 (embree#387)"},
+    {"G6", "rays on which others failed",
+     "reported by users of pbrt-v4, of Vulkan's conformance tests, of Oblikovati; the rest of this "
+     "test is among the slivers"},
     {"G7", "degenerate and invalid primitives",
      "Embree skips them silently (rtcCommitScene.md:43); NaN in a BVH: endless loop "
      "(devil_ray#62)"},

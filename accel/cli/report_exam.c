@@ -5,7 +5,6 @@
 #include "report_exam.h"
 
 #include "crew.h"
-#include "judge.h"
 
 #include <stdatomic.h>
 #include <stdlib.h>
@@ -27,6 +26,8 @@ static void make_scene_of(const accel_exam_subject *subject, struct test_scene *
 {
     if (subject->leaks != NULL) {
         leak_make(s, subject->leaks, seed_of(subject));
+    } else if (subject->known != NULL) {
+        known_make(s, subject->known);
     } else {
         scene_make(s, subject->maker, seed_of(subject));
     }
@@ -51,10 +52,30 @@ static accel_ray integer_ray(const struct test_scene *s, struct dice *d, accel_f
     return ray;
 }
 
+/* One ray: t is a whole number of eighths. A peer may name any of the triangles where it is hit. */
+static void make_known(accel_exam *e, const struct known *c)
+{
+    accel_first *first = &e->exact[0];
+    *first = (accel_first){.tie_count = c->hit ? c->triangles : 0};
+    if (c->hit) {
+        first->crossing =
+            (struct crossing){.over = (int64_t)(8.0 * c->t), .under = 4, .prim = c->prim};
+    }
+    for (uint32_t i = 0; i < first->tie_count; i++) {
+        first->ties[i] = (accel_id){0, i};
+    }
+    e->set.rays[0] = known_ray(c);
+    e->set.count = 1;
+}
+
 static void make_rays(accel_exam *e, const accel_exam_subject *subject, size_t count)
 {
     struct dice d = dice_from(seed_of(subject), 2);
     e->set.count = 0;
+    if (subject->known != NULL) {
+        make_known(e, subject->known);
+        return;
+    }
     for (uint64_t i = 0; e->set.count < count && i < 8 * (uint64_t)count; i++) {
         accel_ray *ray = &e->set.rays[e->set.count];
         if (subject->leaks != NULL) {
@@ -67,25 +88,6 @@ static void make_rays(accel_exam *e, const accel_exam_subject *subject, size_t c
             e->set.count++;
         }
     }
-}
-
-/* What Embree's rays may hold: it ends the program at others (ray.h: valid, FLT_LARGE). */
-#define PEER_RANGE 1.844e18
-
-static bool is_in_range(const accel_ray *ray)
-{
-    for (int k = 0; k < 3; k++) {
-        if (!(fabs(ray->org[k]) <= PEER_RANGE) || !(fabs(ray->dir[k]) <= PEER_RANGE)) {
-            return false;
-        }
-    }
-    return !isnan(ray->tmin) && !isnan(ray->tmax);
-}
-
-/* Embree has no hits behind the origin: such a ray is not its fault. */
-static bool is_forward(const accel_ray *ray)
-{
-    return !(ray->tmin < 0.0);
 }
 
 /* Of what Embree makes its own copy: finite triangles and spheres. */
@@ -198,8 +200,8 @@ static size_t count_decided(const accel_exam *e, const struct judgement *j, bool
 {
     size_t decided = 0;
     for (size_t i = 0; i < e->set.count; i++) {
-        decided +=
-            (j == NULL || j[i].verdict != UNDECIDED) && (!peer || is_forward(&e->set.rays[i]));
+        decided += (j == NULL || j[i].verdict != UNDECIDED) &&
+                   (!peer || accel_peer_asked(&e->set.rays[i]));
     }
     return decided;
 }
@@ -212,7 +214,7 @@ static bool make_peer_set(accel_exam *e)
         return false;
     }
     for (size_t i = 0; i < e->set.count; i++) {
-        if (is_in_range(&e->set.rays[i]) && is_forward(&e->set.rays[i])) {
+        if (accel_peer_reaches(&e->set.rays[i]) && accel_peer_asked(&e->set.rays[i])) {
             e->peer_set.rays[e->peer_set.count++] = e->set.rays[i];
         }
     }
@@ -296,9 +298,9 @@ bool accel_exam_make(accel_exam *e, accel_exam_subject subject, double seconds, 
     }
     make_scene_of(&subject, e->scene);
     e->peers = suits_peers(e->scene);
-    e->judge = subject.leaks != NULL ? ACCEL_BY_HIT
-               : subject.integers    ? ACCEL_BY_INTEGERS
-                                     : ACCEL_BY_ORACLE;
+    e->judge = subject.leaks != NULL                       ? ACCEL_BY_HIT
+               : subject.integers || subject.known != NULL ? ACCEL_BY_INTEGERS
+                                                           : ACCEL_BY_ORACLE;
     if (accel_build(&e->linear, &e->scene->scene, "linear", NULL, &error) != ACCEL_OK) {
         return false;
     }
@@ -323,110 +325,4 @@ void accel_exam_free(accel_exam *e)
     free(e->exact);
     accel_free_set(&e->set);
     accel_free_set(&e->peer_set);
-}
-
-/* --------------------------------------------------------------- contenders ---- */
-
-static size_t trace_ours(const accel_contender *c, const accel_ray_set *set)
-{
-    size_t found = 0;
-    accel_hit hit;
-    for (size_t i = 0; i < set->count; i++) {
-        found += accel_closest(c->state, &set->rays[i], &hit, NULL);
-    }
-    return found;
-}
-
-static void end_ours(accel_contender *c)
-{
-    accel_free(c->state);
-}
-
-accel_contender accel_exam_ours(accel *a, const char *config)
-{
-    accel_info info;
-    accel_describe(a, &info);
-    accel_contender c = {.state = a,
-                         .build_seconds = info.seconds,
-                         .bytes = (double)info.bytes,
-                         .trace = trace_ours,
-                         .end = end_ours};
-    snprintf(c.name, sizeof c.name, "%.63s", config);
-    return c;
-}
-
-/* One answer of ours: the same bits as linear's, and right. */
-static bool is_right(const accel_exam *e, const accel_contender *c, size_t i)
-{
-    accel_hit hit;
-    const accel_hit *linear = &e->set.hits[i];
-    const bool found = accel_closest(c->state, &e->set.rays[i], &hit, NULL);
-    const bool same = found == (linear->geom != ACCEL_NONE) &&
-                      (!found || accel_same_hit(&hit, linear)) &&
-                      accel_any(c->state, &e->set.rays[i], NULL) == found;
-    switch (e->judge) {
-    case ACCEL_BY_HIT:
-        return same && found;
-    case ACCEL_BY_INTEGERS:
-        return same && found == (e->exact[i].crossing.under != 0) &&
-               (!found || crossing_is(&e->exact[i].crossing, &hit));
-    case ACCEL_BY_ORACLE:
-        return same && oracle_agrees(&e->right[i], found, &hit);
-    default:
-        return same;
-    }
-}
-
-/* One of those that are hit first, or nothing where nothing is. */
-static bool is_tie(const accel_first *first, accel_id got)
-{
-    for (uint32_t i = 0; i < first->tie_count; i++) {
-        if (first->ties[i].geom == got.geom && first->ties[i].prim == got.prim) {
-            return true;
-        }
-    }
-    return first->tie_count == 0 && got.geom == ACCEL_NONE;
-}
-
-/* One answer of a peer. */
-static bool names_right(const accel_exam *e, const struct judgement *right,
-                        const accel_contender *peer, size_t i)
-{
-    const accel_ray *ray = &e->set.rays[i];
-    if (!is_forward(ray)) {
-        return true;
-    }
-    const accel_id none = {ACCEL_NONE, ACCEL_NONE};
-    const accel_id got = is_in_range(ray) ? peer->ask(peer, &e->set, i) : none;
-    const bool found = got.geom != ACCEL_NONE;
-    if (e->judge == ACCEL_BY_HIT) {
-        return found;
-    }
-    if (e->judge == ACCEL_BY_INTEGERS) {
-        return is_tie(&e->exact[i], got);
-    }
-    if (right[i].verdict != HIT) {
-        return right[i].verdict == UNDECIDED || !found;
-    }
-    return found && got.geom == right[i].geom && got.prim == right[i].prim;
-}
-
-static size_t count_wrong(const accel_exam *e, const struct judgement *right,
-                          const accel_contender *c)
-{
-    size_t wrong = 0;
-    for (size_t i = 0; i < e->set.count; i++) {
-        wrong += c->peer ? !names_right(e, right, c, i) : !is_right(e, c, i);
-    }
-    return wrong;
-}
-
-size_t accel_exam_wrong(const accel_exam *e, const accel_contender *c)
-{
-    return count_wrong(e, e->right, c);
-}
-
-size_t accel_exam_wrong_single(const accel_exam *e, const accel_contender *c)
-{
-    return count_wrong(e, e->judge == ACCEL_BY_ORACLE ? e->single : NULL, c);
 }

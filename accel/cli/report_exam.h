@@ -16,6 +16,7 @@
 
 #include "bench.h"
 #include "catalogue.h"
+#include "known.h"
 #include "lattice.h"
 #include "leaks.h"
 #include "oracle.h"
@@ -36,14 +37,15 @@ typedef struct accel_exam_subject {
     const struct scene_maker *maker; /* of the scene; NULL: leaks */
     const struct ray_family *family; /* of rays at it */
     const struct leak_mesh *leaks;   /* scene and rays that must hit; NULL: maker */
+    const struct known *known;       /* scene, ray and answer of a report; NULL: maker */
     bool integers;                   /* rays of cases/lattice.h, judged by integers */
     uint64_t seed;                   /* 0 stands for 1 */
 } accel_exam_subject;
 
 enum { ACCEL_MOST_TIES = 32 };
 
-/* What an integer line hits first, and all that it hits at the same t: which of them a peer names
- * is its own affair. */
+/* What an integer line or the ray of a known case hits first, and all that it hits at the same t:
+ * which of them a peer names is its own affair. */
 typedef struct accel_first {
     struct crossing crossing; /* the right one; under is 0 where nothing is hit */
     accel_id ties[ACCEL_MOST_TIES];
@@ -53,17 +55,17 @@ typedef struct accel_first {
 /* Rays on one scene, and what is right. */
 typedef struct accel_exam {
     accel_judge judge;
-    struct test_scene *scene;  /* owned */
-    accel *linear;             /* over it, owned */
-    accel_ray_set set;         /* the rays; hits: what linear answers */
-    struct judgement *right;   /* by the oracle, for each ray, or NULL */
-    struct judgement *single;  /* the same of what peers are given, or NULL */
-    struct accel_first *exact; /* by integers */
-    size_t decided;            /* rays that count */
-    size_t decided_peer;       /* of them, those that a peer can be asked */
-    size_t decided_single;     /* the same, of what peers are given */
-    accel_ray_set peer_set;    /* rays within a peer's range: what it is timed on */
-    bool peers;                /* Embree knows all of its primitives */
+    struct test_scene *scene; /* owned */
+    accel *linear;            /* over it, owned */
+    accel_ray_set set;        /* the rays; hits: what linear answers */
+    struct judgement *right;  /* by the oracle, for each ray, or NULL */
+    struct judgement *single; /* the same of what peers are given, or NULL */
+    accel_first *exact;       /* by integers */
+    size_t decided;           /* rays that count */
+    size_t decided_peer;      /* of them, those that a peer can be asked */
+    size_t decided_single;    /* the same, of what peers are given */
+    accel_ray_set peer_set;   /* rays within a peer's range: what it is timed on */
+    bool peers;               /* Embree knows all of its primitives */
 } accel_exam;
 
 /* Makes scene and rays and has them judged; takes about `seconds`: the count of rays, from `least`
@@ -75,6 +77,12 @@ void accel_exam_free(accel_exam *exam);
 
 /* A structure of ours as a contender; it owns the structure. */
 accel_contender accel_exam_ours(accel *a, const char *config);
+
+/* Are all numbers of the ray within a peer's range? */
+bool accel_peer_reaches(const accel_ray *ray);
+
+/* Can a peer be asked at all? */
+bool accel_peer_asked(const accel_ray *ray);
 
 /* Wrong answers of a contender to the rays that count: decided, or decided_peer of a peer. A ray
  * beyond a peer's range gets no answer from it: wrong where something is to be hit. */

@@ -7,65 +7,14 @@
 
 #include "cmocka_all.h"
 #include "compare.h"
-
-struct known {
-    const char *origin; /* who reported it */
-    double vertices[18];
-    uint32_t triangles;
-    double org[3], dir[3], tmax;
-    bool hit;
-    uint32_t prim; /* of the hit */
-    double t;
-};
-
-static const struct known cases[] = {
-    /* Three corners on one line: no ray hits it. */
-    {"pbrt-v4, Triangle.BadCases",
-     {-1113.45459f, -79.049614f, -56.2431908f, -1113.45459f, -87.0922699f, -56.2431908f,
-      -1113.45459f, -79.2090149f, -56.2431908f},
-     1,
-     {-1081.47925f, 99.9999542f, 87.7701111f},
-     {-32.1072998f, -183.355865f, -144.607635f},
-     0.9999f,
-     false,
-     0,
-     0},
-    /* Exactly through the edge x + y = 1 that two overlapping triangles share. */
-    {"VK-GL-CTS 446",
-     {0x1p+0, 0, -0x1p+0, 0, 0x1p+0, -0x1p+0, 0x1.90759p-2, 0x1.37c53ap-1, -0x1.af3846p-2, 0,
-      0x1p+0, -0x1p+0, 0x1p+0, 0, -0x1p+0, 0x1.1ef418p-2, 0x1.6a74ep-1, -0x1.9f568ep-1},
-     2,
-     {0x1.e1p-1, 0x1.fp-5, 0},
-     {0, 0, -1},
-     INFINITY,
-     true,
-     0,
-     1},
-    /* On the diagonal of a square of two triangles. */
-    {"Oblikovati 2146",
-     {-5, -5, 0, 5, -5, 0, 5, 5, 0, -5, -5, 0, 5, 5, 0, -5, 5, 0},
-     2,
-     {0, 0, 9.0},
-     {3, 3, -8},
-     INFINITY,
-     true,
-     0,
-     1.125},
-};
+#include "known.h"
 
 static void try_case(const struct known *c, const char *kind)
 {
     struct test_scene s;
-    scene_open(&s);
-    struct part *p = scene_part(&s, ACCEL_TRIANGLES);
-    for (uint32_t i = 0; i < c->triangles; i++) {
-        const double *t = c->vertices + 9 * i;
-        part_triangle(p, t, t + 3, t + 6);
-    }
-    scene_close(&s);
+    known_make(&s, c);
     accel *a = must_build(&s, kind);
-    accel_ray ray = accel_ray_from(c->org, c->dir);
-    ray.tmax = c->tmax;
+    const accel_ray ray = known_ray(c);
     accel_hit hit = {.prim = 0};
     if (accel_closest(a, &ray, &hit, NULL) != c->hit)
         fail_msg("%s, %s: %s", kind, c->origin, c->hit ? "missed" : "hit");
@@ -80,9 +29,9 @@ static void test_cases(void **state)
     (void)state;
     size_t kinds;
     const accel_kind_info *const *kind = accel_kinds(&kinds);
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+    for (const struct known *c = known_cases; c->name; c++)
         for (size_t k = 0; k < kinds; k++)
-            try_case(&cases[i], kind[k]->name);
+            try_case(c, kind[k]->name);
 }
 
 /* Embree 387: a grazing ray, a thin triangle, and a t twenty times beyond all of its corners. Here
