@@ -155,6 +155,18 @@ verifying() {
     check "  and was one" different far far-stock
 }
 
+# Octrees that rays build: one of two blocks is never seen.
+lazy() {
+    if ! grep -qx hoo <<< "$(all_kinds)"; then return; fi
+    run 0 behind-stock "$stock" behind -MB
+    check "lazy renders" run 0 lazy "$ours" behind +BM3 Accelerator=hoo:lazy=on +BV
+    check "  as verified" says lazy '^Accelerator verified: *[1-9][0-9]* *Differences: *0$'
+    check "  and changes no pixel" same_pixels lazy behind-stock
+    check "  begins with nothing built" says lazy 'lazy: 2 of 2 clusters and 686 of 686'
+    check "  and ends with what was seen" says lazy '^Accelerator built: *1 of 2 clusters, 343 of 686 '
+    check "an eager structure says nothing" silent ours-3 '^Accelerator built'
+}
+
 need_binaries
 mkdir -p "$build/tests/options"
 cd "$build/tests/options"
@@ -164,4 +176,5 @@ stock_without_options
 precedence
 bad_configurations
 verifying
+lazy
 exit $failed

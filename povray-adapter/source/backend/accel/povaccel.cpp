@@ -573,7 +573,23 @@ void Accelerator::GetStatistics(POVMS_Object& parserStats) const
 		parserStats.SetString(kPOVAttrib_AcceleratorText, "Accelerator:      none, linear search (bounding is off, or there are few objects)\n");
 }
 
-void Accelerator::GetStatistics(POVMS_Object& renderStats, const RenderStatistics& stats)
+/// What rays have built of a lazy structure.
+static std::string Describe_Built(const accel *structure)
+{
+	accel_info info;
+
+	accel_describe(structure, &info);
+	if((info.unbuilt_clusters == 0) && (info.lazy_bytes == 0))
+		return "";
+
+	const POV_ULONG bounded = info.primitives - info.skipped - info.degenerate - info.unbounded;
+
+	return str(format("Accelerator built:    %d of %d clusters, %d of %d objects, %d KiB\n") %
+	           (info.clusters - info.unbuilt_clusters) % info.clusters % (bounded - info.unbuilt_primitives) % bounded %
+	           ((info.lazy_bytes + 1023) / 1024));
+}
+
+void Accelerator::GetStatistics(POVMS_Object& renderStats, const RenderStatistics& stats) const
 {
 	const POV_ULONG outside = stats[Accel_Hits_Outside];
 	const POV_ULONG refused = stats[Accel_Rays_Refused];
@@ -581,6 +597,8 @@ void Accelerator::GetStatistics(POVMS_Object& renderStats, const RenderStatistic
 	const POV_ULONG different = stats[Accel_Queries_Different];
 	std::string text;
 
+	if(structure != NULL)
+		text += Describe_Built(structure);
 	if(verified > 0)
 		text += str(format("Accelerator verified: %13d   Differences:     %15d\n") % verified % different);
 	if(refused > 0)

@@ -8,7 +8,7 @@
  * library. It is a derivative work of POV-Ray 3.7.0.10; see LICENSE.
  *
  * One object of class Accelerator belongs to each scene. It is made with the
- * scene's options, built once by the bounding task, and only read after that,
+ * scene's options, built once by the bounding task, and only queried after that,
  * so that all render threads share it. All state of a query is on the stack of
  * the thread that runs it.
  *******************************************************************************/
@@ -59,8 +59,8 @@ class Accelerator
 		/// Describes the structure for the parser statistics.
 		void GetStatistics(POVMS_Object& parserStats) const;
 
-		/// Describes what is not usual in a render, and the result of Accelerator_Verify.
-		static void GetStatistics(POVMS_Object& renderStats, const RenderStatistics& stats);
+		/// Describes what a render built of a lazy structure, what is not usual, and the result of Accelerator_Verify.
+		void GetStatistics(POVMS_Object& renderStats, const RenderStatistics& stats) const;
 
 		/// Did Accelerator_Verify find a difference anywhere in this process?
 		static bool DifferenceWasFound();
