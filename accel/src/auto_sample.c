@@ -159,8 +159,7 @@ bool sample_take(struct build *build, struct sample *s)
 {
     const struct primitives *p = &build->a->prims;
     const size_t n = p->bounded.count;
-    const accel_box bounds = primitives_bounds(p);
-    const struct frame frame = frame_of(&bounds);
+    const struct frame frame = frame_of(&p->bounds);
     double sum, due = 0.5;
     s->box = box_empty();
     if (!add_surfaces(build, &frame, &sum))

@@ -58,6 +58,17 @@ static inline double box_area(const accel_box *b)
     return x * y + y * z + z * x;
 }
 
+/* The longest side. */
+static inline double box_longest(const accel_box *b)
+{
+    double longest = 0.0;
+    for (int k = 0; k < 3; k++) {
+        const double side = b->hi[k] - b->lo[k];
+        longest = side > longest ? side : longest;
+    }
+    return longest;
+}
+
 /* The chance that a line through `outer` meets `inner`, which lies in it: the ratio of surfaces.
  * 1 where the surfaces do not tell: boxes without extent, or too large or small for double. */
 static inline double box_chance(const accel_box *inner, const accel_box *outer)

@@ -386,7 +386,7 @@ static bool grow(struct grower *g, struct task *t, struct subtree *out)
 static bool prepare(struct grower *g, struct task *root)
 {
     const struct primitives *p = &g->build->a->prims;
-    const accel_box all = primitives_bounds(p);
+    const accel_box all = p->bounds;
     g->boxes = p->box;
     g->scale = frame_of(&all).scale;
     g->bsp->box = all;

@@ -401,7 +401,7 @@ static bool gather(struct grower *g)
 {
     const struct primitives *p = &g->build->a->prims;
     struct memory *m = &g->build->a->memory;
-    const accel_box box = primitives_bounds(p);
+    const accel_box box = p->bounds;
     g->items = memory_resize(m, NULL, 0, p->bounded.count * sizeof *g->items);
     if (!g->items || !array_extend(m, &g->bvh->refs, p->bounded.count))
         return build_no_memory(g->build);

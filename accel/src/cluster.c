@@ -5,32 +5,46 @@
  * The idea is that of Cazals, Drettakis and Puech (see cluster.h). Their exact rules are not
  * public; these are ours, each with its reason:
  * - Filter (cluster_sizes.c): a new size class begins where an octave of size is empty. A fixed
- * number of classes would cut meshes, whose triangles vary without gaps, into interleaved pieces.
- * `octaves` limits the span. What is smaller than 2^-18 of the scene counts as that large.
- * - Near (cluster_near.c): boxes that touch are connected (connectivity 0.0, Havran's published
- * setting for hug). A given connectivity c > 0 connects over gaps up to c times the largest size of
- * the class.
- * - Too many (cluster_crumbs.c): if there are more parts than one for each PARTS_CRUMB primitives,
- * the small ones are gathered by distance.
+ *   number of classes would cut meshes, whose triangles vary without gaps, into interleaved pieces.
+ *   `octaves` limits the span. What is smaller than 2^-18 of the scene counts as that large.
+ * - Bins (cluster_look.c, cluster_bins.c): a sample tells how fine a grid has to be; what lies
+ *   together in one of its cells is a part, split where planes go between. All that follows handles
+ *   parts, of which there are but one for some dozens of primitives.
+ * - Near (cluster_crumbs.c): parts whose boxes touch are joined. Where primitives are loose, or
+ * what touches is small, they are joined by distance, as far as the predicted cost falls.
  * - Overlap (cluster_nested.c): parts in each other's boxes are joined where one octree is cheaper.
- * With a given connectivity neither of the last two is done: the user gets what he asked for.
+ * With a given connectivity c (cluster_units.c, cluster_near.c), primitives are connected over gaps
+ * up to c times the largest size of their class, and nothing else is done: the user gets what he
+ * asked for. Havran's published setting for hug is 0.
  */
 #include "cluster.h"
 
 #include "order.h"
 #include "cluster_parts.h"
 
+/* The parts that touch, or that are within the gap that the user wants. */
+static bool make_given(struct parts *p, double connectivity)
+{
+    return parts_make_units(p) && parts_connect(p, connectivity);
+}
+
+static bool make_auto(struct parts *p)
+{
+    struct look look;
+    p->crumb = PARTS_CRUMB;
+    if (!parts_look(p, &look) || !parts_bin(p, &look))
+        return false;
+    if (look.loose)
+        p->crumb = ACCEL_NONE;
+    else if (p->part.count > 1 && !parts_join_touching(p))
+        return false;
+    return parts_join_crumbs(p, look.loose ? &look : NULL) && parts_join_nested(p);
+}
+
 static bool make_parts(struct parts *p, struct cluster_rule rule)
 {
-    if (!sizes_measure(p->build, &p->sizes, rule.octaves) || !parts_connect(p, rule.connectivity))
-        return false;
-    if (!isnan(rule.connectivity) || p->part.count == 1)
-        return true;
-    if ((p->crumb > PARTS_CRUMB ||
-         p->part.count > p->build->a->prims.bounded.count / PARTS_CRUMB) &&
-        !parts_join_crumbs(p))
-        return false;
-    return parts_join_nested(p);
+    p->sizes = sizes_of(p->build, rule.octaves);
+    return isnan(rule.connectivity) ? make_auto(p) : make_given(p, rule.connectivity);
 }
 
 /* ---------------------------------------------------------- number the clusters ---- */
@@ -73,23 +87,47 @@ static bool order_clusters(struct parts *p, struct clustering *c)
     return fine;
 }
 
+/* The cluster of each piece: a unit, or a part where primitives are loose. */
+static bool find_homes(struct parts *p, struct ids *home)
+{
+    const size_t pieces = p->units.count > 0 ? p->units.count : p->part.count;
+    if (!array_extend(&p->build->a->memory, home, pieces))
+        return build_no_memory(p->build);
+    for (size_t i = 0; i < pieces; i++) {
+        const uint32_t part = p->units.count > 0 ? p->units.at[i].home : (uint32_t)i;
+        home->at[i] = p->part.at[parts_root(p, part)].count;
+    }
+    return true;
+}
+
 /* Counting sort of the ids by cluster. */
-static bool order_ids(struct parts *p, struct clustering *c)
+static void sort_ids(const struct parts *p, struct clustering *c, const struct ids *home)
 {
     const struct ids *bounded = &p->build->a->prims.bounded;
-    if (!array_extend(&p->build->a->memory, &c->order, bounded->count))
-        return build_no_memory(p->build);
-    for (size_t i = 0; i < p->units.count; i++) {
-        struct unit *u = &p->units.at[i];
-        u->home = p->part.at[parts_root(p, u->home)].count;
-    }
     for (size_t i = 0; i < bounded->count; i++) {
-        struct cluster *cluster = &c->clusters.at[p->units.at[p->unit_of.at[i]].home];
+        struct cluster *cluster = &c->clusters.at[home->at[p->piece_of.at[i]]];
         c->order.at[cluster->first++] = bounded->at[i];
     }
     for (size_t i = 0; i < c->clusters.count; i++)
         c->clusters.at[i].first -= c->clusters.at[i].count;
-    return true;
+}
+
+static bool order_ids(struct parts *p, struct clustering *c)
+{
+    const struct ids *bounded = &p->build->a->prims.bounded;
+    struct memory *m = &p->build->a->memory;
+    struct ids home = {0};
+    if (!array_extend(m, &c->order, bounded->count))
+        return build_no_memory(p->build);
+    if (c->clusters.count == 1) {
+        memcpy(c->order.at, bounded->at, bounded->count * sizeof *bounded->at);
+        return true;
+    }
+    const bool fine = find_homes(p, &home);
+    if (fine)
+        sort_ids(p, c, &home);
+    array_free(m, &home);
+    return fine;
 }
 
 bool cluster_scene(struct build *build, struct clustering *c, struct cluster_rule rule, double from,
@@ -99,7 +137,7 @@ bool cluster_scene(struct build *build, struct clustering *c, struct cluster_rul
     struct parts p = {.build = build, .now = 0.5 * (from + to)};
     const bool fine = make_parts(&p, rule) && order_clusters(&p, c) && order_ids(&p, c);
     array_free(m, &p.units);
-    array_free(m, &p.unit_of);
+    array_free(m, &p.piece_of);
     array_free(m, &p.part);
     c->size_classes = p.sizes.classes;
     build->a->info.size_classes = c->size_classes;

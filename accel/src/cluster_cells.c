@@ -3,10 +3,9 @@
 
 enum { SMALLEST_ROOM = 64 };
 
-static bool grow(struct memory *m, struct cells *c)
+static bool grow(struct memory *m, struct cells *c, size_t room)
 {
     const struct cells old = *c;
-    const size_t room = old.room ? 2 * old.room : SMALLEST_ROOM;
     struct cell_slot *slot =
         room > SIZE_MAX / sizeof *slot ? NULL : memory_resize(m, NULL, 0, room * sizeof *slot);
     if (!slot)
@@ -22,9 +21,17 @@ static bool grow(struct memory *m, struct cells *c)
     return true;
 }
 
+bool cells_reserve(struct memory *m, struct cells *c, size_t count)
+{
+    size_t room = SMALLEST_ROOM;
+    while (room / 2 < count)
+        room *= 2;
+    return grow(m, c, room);
+}
+
 struct cell_slot *cells_at(struct memory *m, struct cells *c, uint64_t key)
 {
-    if (2 * c->used >= c->room && !grow(m, c))
+    if (2 * c->used >= c->room && !grow(m, c, c->room ? 2 * c->room : SMALLEST_ROOM))
         return NULL;
     struct cell_slot *s = cells_probe(c, key);
     if (s->value == ACCEL_NONE) {

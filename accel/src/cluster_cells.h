@@ -31,16 +31,6 @@ static inline uint32_t octave_of(double size)
     return octave < 0 ? 0 : octave < CELLS_OCTAVES ? (uint32_t)octave : CELLS_OCTAVES - 1;
 }
 
-static inline double box_longest(const accel_box *b)
-{
-    double longest = 0.0;
-    for (int k = 0; k < 3; k++) {
-        const double side = b->hi[k] - b->lo[k];
-        longest = side > longest ? side : longest;
-    }
-    return longest;
-}
-
 static inline uint64_t cell_key(uint32_t class, uint32_t octave, uint32_t x, uint32_t y, uint32_t z)
 {
     return (uint64_t) class << 59 | (uint64_t)octave << 54 | (uint64_t)x << 36 | (uint64_t)y << 18 |
@@ -97,6 +87,9 @@ static inline uint32_t cells_get(const struct cells *c, uint64_t key)
 {
     return c->room ? cells_probe(c, key)->value : ACCEL_NONE;
 }
+
+/* Makes room for so many cells. Zero before. */
+bool cells_reserve(struct memory *m, struct cells *c, size_t count);
 
 /* The cell's slot, for the caller to set its value at once if it is ACCEL_NONE. NULL: no memory. */
 struct cell_slot *cells_at(struct memory *m, struct cells *c, uint64_t key);

@@ -1,39 +1,42 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
  * Gathering crumbs: parts of so few primitives that an octree would not pay, such as loose cubes,
- * leaves of a tree, a cloud of spheres.
+ * leaves of a tree, the cells of a cloud of spheres.
  *
- * The crumbs of a size class are joined where the gap between them is at most d, for d = about the
- * size of the largest, twice that, and so on; of these partitions the one with the lowest predicted
- * cost is taken. Those with more clusters than one for each PARTS_CRUMB primitives are out of the
- * question, unless there are but a few crumbs in all. Doubling finds the distances at which the
- * class falls apart, to a factor of two; each gap is one linear pass, at most CELLS_OCTAVES of them
- * and rarely more than three.
+ * The crumbs of a size class are joined where the gap between their boxes is at most d, then the
+ * clusters that this gives where theirs is at most 2d, and so on, until one is left; of these
+ * partitions the one with the lowest predicted cost is taken. Those with more clusters than one for
+ * each PARTS_CRUMB primitives are out of the question, unless there are but a few crumbs in all.
+ * Doubling finds the distances at which the class falls apart, to a factor of two. Each gap is one
+ * pass, linear in the clusters of the one before; there are at most CELLS_OCTAVES of them, and
+ * after the first few hardly anything is left to look at.
  *
  * The predicted cost of a partition is that of its clusters (parts_cost) and of the tree over
  * them: a ray that meets the box around all visits about log2 of their number in nodes.
  */
 #include "cluster_parts.h"
 #include "cluster_touching.h"
+#include "order.h"
 
-/* Half the gap, in cells: the gap is a quarter of a cell. */
-#define REACH 0.125
-
-/* A partition of a class's crumbs. */
-struct partition {
-    uint32_t *cluster_of; /* by crumb */
-    size_t clusters;
-    double cost;
+enum {
+    FEWEST = 8,  /* primitives of a crumb, on average, where there are many */
+    LEAST = 4096 /* primitives that are many */
 };
 
 struct gatherer {
     struct parts *parts;
-    struct ids crumbs;            /* of one class: root parts */
-    uint64_t primitives;          /* in them */
-    accel_box box;                /* around them */
-    uint32_t octave;              /* of the cells: a quarter of one is the gap */
-    ARRAY_OF(struct cluster) sum; /* the clusters of `now` */
-    struct partition now, best;   /* for this gap; of lowest cost so far */
+    struct ids crumbs;                     /* of one class: root parts */
+    uint64_t primitives;                   /* in them */
+    size_t roots, all;                     /* root parts of every class, and their primitives */
+    accel_box box;                         /* around them */
+    ARRAY_OF(struct cluster) now;          /* the clusters so far, boxes in units of the frame */
+    ARRAY_OF(struct cluster) next;         /* those being made */
+    ARRAY_OF(uint32_t) order;              /* the clusters so far by octave of size, coarse first */
+    uint32_t octave_at[CELLS_OCTAVES + 1]; /* where each octave begins in `order` */
+    ARRAY_OF(uint32_t) group;              /* by cluster so far */
+    ARRAY_OF(uint32_t) number;             /* by root group: the new cluster */
+    ARRAY_OF(uint32_t) cluster_of, best;   /* by crumb: its cluster now, in the best partition */
+    double best_cost;                      /* INFINITY: no partition was legal yet */
 };
 
 static struct memory *memory_of(const struct gatherer *g)
@@ -41,159 +44,294 @@ static struct memory *memory_of(const struct gatherer *g)
     return &g->parts->build->a->memory;
 }
 
-/* Finds the crumbs of a class and where to begin. */
-static bool collect(struct gatherer *g, uint32_t class)
+/* ------------------------------------------------------------------- the crumbs ---- */
+
+static void take(struct gatherer *g, uint32_t part)
 {
-    struct parts *p = g->parts;
-    double largest = 0.0;
+    const struct cluster *crumb = &g->parts->part.at[part];
+    const uint32_t i = (uint32_t)g->crumbs.count++;
+    g->crumbs.at[i] = part;
+    g->now.at[i] = *crumb;
+    g->now.at[i].box = frame_box(&g->parts->sizes.frame, &crumb->box);
+    g->cluster_of.at[i] = i;
+    g->primitives += crumb->count;
+    box_add(&g->box, &g->now.at[i].box);
+}
+
+static bool collect(struct gatherer *g, uint32_t class, bool all)
+{
+    const struct parts *p = g->parts;
+    struct memory *m = memory_of(g);
+    if (!array_reserve(m, &g->crumbs, p->part.count) || !array_reserve(m, &g->now, p->part.count) ||
+        !array_reserve(m, &g->cluster_of, p->part.count))
+        return build_no_memory(p->build);
     g->box = box_empty();
+    g->best_cost = (double)INFINITY;
     for (size_t i = 0; i < p->part.count; i++) {
         const struct cluster *part = &p->part.at[i];
-        if (part->first != i || part->size_class != class || part->count >= p->crumb)
+        if (part->first != i)
             continue;
-        if (!array_extend(memory_of(g), &g->crumbs, 1))
-            return build_no_memory(p->build);
-        g->crumbs.at[g->crumbs.count - 1] = (uint32_t)i;
-        g->primitives += part->count;
-        box_add(&g->box, &part->box);
-        const accel_box unit = frame_box(&p->sizes.frame, &part->box);
-        largest = fmax(largest, box_longest(&unit));
+        g->roots++;
+        g->all += part->count;
+        if (part->size_class == class && (all || part->count < p->crumb))
+            take(g, (uint32_t)i);
     }
-    g->octave = octave_of(fmin(4.0 * largest, 0.5));
+    g->now.count = g->cluster_of.count = g->crumbs.count;
     return true;
 }
 
-static uint32_t *new_numbers(struct gatherer *g, size_t count)
+/* The mean size of a crumb. */
+static double mean_size(const struct gatherer *g)
 {
-    uint32_t *at = memory_resize(memory_of(g), NULL, 0, count * sizeof *at);
-    if (!at)
-        build_no_memory(g->parts->build);
-    return at;
+    double sum = 0.0;
+    for (size_t i = 0; i < g->now.count; i++)
+        sum += box_longest(&g->now.at[i].box);
+    return fmax(sum / (double)g->now.count, ldexp(1.0, -CELLS_OCTAVES));
 }
 
-static void free_numbers(struct gatherer *g, uint32_t *at, size_t count)
+/* ----------------------------------------------------------------------- a pass ---- */
+
+/* The octave of the cells for a box and a gap: neither is larger than half of one. */
+static uint32_t cells_for(const accel_box *unit, double gap)
 {
-    if (at)
-        memory_resize(memory_of(g), at, count * sizeof *at, 0);
+    const double size = fmax(box_longest(unit), 2.0 * gap);
+    return size < 0.5 ? octave_of(2.0 * size) : 0;
 }
 
-/* Every crumb's group goes into now.cluster_of. */
-static bool enter(struct gatherer *g, struct touching *t)
+/* Counting sort of the clusters by octave. */
+static bool sort(struct gatherer *g, double gap)
 {
-    const struct parts *p = g->parts;
-    const struct touch_rule rule = {.octave = g->octave, .reach = REACH};
-    for (size_t i = 0; i < g->crumbs.count; i++) {
-        const accel_box unit = frame_box(&p->sizes.frame, &p->part.at[g->crumbs.at[i]].box);
-        g->now.cluster_of[i] = touching_enter(memory_of(g), t, &unit, rule);
-        if (g->now.cluster_of[i] == ACCEL_NONE)
-            return build_no_memory(p->build);
-        if (!parts_tick(p, i))
+    uint32_t next[CELLS_OCTAVES] = {0}, sum = 0;
+    g->order.count = g->group.count = 0;
+    if (!array_extend(memory_of(g), &g->order, g->now.count) ||
+        !array_extend(memory_of(g), &g->group, g->now.count))
+        return build_no_memory(g->parts->build);
+    for (size_t i = 0; i < g->now.count; i++)
+        next[cells_for(&g->now.at[i].box, gap)]++;
+    for (uint32_t o = 0; o < CELLS_OCTAVES; o++) {
+        const uint32_t here = next[o];
+        g->octave_at[o] = next[o] = sum;
+        sum += here;
+    }
+    g->octave_at[CELLS_OCTAVES] = sum;
+    for (size_t i = 0; i < g->now.count; i++)
+        g->order.at[next[cells_for(&g->now.at[i].box, gap)]++] = (uint32_t)i;
+    return true;
+}
+
+static struct touch_rule rule_for(uint32_t octave, double gap)
+{
+    return (struct touch_rule){0, octave, 0.5 * gap * (double)(1u << octave)};
+}
+
+/* Finds the group of a cluster among those that are as large or larger. */
+static bool enter(struct gatherer *g, struct touching *t, uint32_t cluster, uint32_t octave,
+                  double gap)
+{
+    const accel_box *unit = &g->now.at[cluster].box;
+    const uint32_t group = touching_enter(memory_of(g), t, unit, rule_for(octave, gap));
+    if (group == ACCEL_NONE)
+        return build_no_memory(g->parts->build);
+    g->group.at[cluster] = group;
+    for (uint32_t o = 0; o < octave; o++)
+        if (g->octave_at[o] < g->octave_at[o + 1])
+            touching_join(t, unit, rule_for(o, gap), group);
+    return true;
+}
+
+static bool connect(struct gatherer *g, struct touching *t, double gap)
+{
+    for (uint32_t o = 0; o < CELLS_OCTAVES; o++)
+        for (uint32_t i = g->octave_at[o]; i < g->octave_at[o + 1]; i++)
+            if (!enter(g, t, g->order.at[i], o, gap) || !parts_tick(g->parts, i))
+                return false;
+    return true;
+}
+
+/* Takes over the grouping: group.at[i] is a number below `groups` for each cluster so far. New
+ * clusters are in the order of their first ones. */
+static bool regroup(struct gatherer *g, size_t groups)
+{
+    g->number.count = g->next.count = 0;
+    if (!array_extend(memory_of(g), &g->number, groups) ||
+        !array_reserve(memory_of(g), &g->next, g->now.count))
+        return build_no_memory(g->parts->build);
+    memset(g->number.at, 0xff, groups * sizeof *g->number.at);
+    for (size_t i = 0; i < g->now.count; i++) {
+        uint32_t *number = &g->number.at[g->group.at[i]];
+        if (*number == ACCEL_NONE) {
+            *number = (uint32_t)g->next.count++;
+            g->next.at[*number] = (struct cluster){.box = box_empty()};
+        }
+        g->group.at[i] = *number;
+        box_add(&g->next.at[*number].box, &g->now.at[i].box);
+        g->next.at[*number].count += g->now.at[i].count;
+    }
+    for (size_t i = 0; i < g->crumbs.count; i++)
+        g->cluster_of.at[i] = g->group.at[g->cluster_of.at[i]];
+    for (size_t i = 0; i < g->next.count; i++)
+        g->now.at[i] = g->next.at[i];
+    g->now.count = g->next.count;
+    return true;
+}
+
+/* Joins the clusters so far over a gap. */
+static bool join_over(struct gatherer *g, double gap)
+{
+    struct touching t = {0};
+    const bool room = touching_reserve(memory_of(g), &t, g->now.count);
+    bool fine = room ? sort(g, gap) && connect(g, &t, gap) : build_no_memory(g->parts->build);
+    for (size_t i = 0; fine && i < g->now.count; i++)
+        g->group.at[i] = touching_root(&t, g->group.at[i]);
+    fine = fine && regroup(g, t.groups.count);
+    touching_free(memory_of(g), &t);
+    return fine;
+}
+
+/* Joins the clusters so far whose middles are in one cell of an octave. */
+static bool join_in_cells(struct gatherer *g, struct cells *cells, uint32_t octave)
+{
+    uint32_t groups = 0;
+    g->group.count = 0;
+    if (!array_extend(memory_of(g), &g->group, g->now.count))
+        return build_no_memory(g->parts->build);
+    for (size_t i = 0; i < g->now.count; i++) {
+        const uint64_t key = order_morton(&g->now.at[i].box) >> 3 * (CELLS_OCTAVES - octave);
+        struct cell_slot *slot = cells_at(memory_of(g), cells, key);
+        if (!slot)
+            return build_no_memory(g->parts->build);
+        if (slot->value == ACCEL_NONE)
+            slot->value = groups++;
+        g->group.at[i] = slot->value;
+    }
+    return regroup(g, groups);
+}
+
+/* Where there are more crumbs than one for each FEWEST primitives, as where most primitives are in
+ * one place and the rest is scattered, joins some at once: to join them gap by gap would take
+ * longer, for partitions that are out of the question. The first cells are those that they would
+ * fill evenly. */
+static bool coarsen(struct gatherer *g)
+{
+    uint32_t o = 1 + (uint32_t)(log2((double)g->now.count) / 3.0);
+    for (; o > 0 && g->now.count > g->primitives / FEWEST; o--) {
+        struct cells cells = {0};
+        const bool fine = join_in_cells(g, &cells, o);
+        cells_free(memory_of(g), &cells);
+        if (!fine)
             return false;
     }
     return true;
 }
 
-/* Replaces groups by clusters and sums these up; number[] is by root group. */
-static bool sum_up(struct gatherer *g, struct touching *t, uint32_t *number)
-{
-    g->sum.count = 0;
-    memset(number, 0xff, t->groups.count * sizeof *number);
-    for (size_t i = 0; i < g->crumbs.count; i++) {
-        const struct cluster *crumb = &g->parts->part.at[g->crumbs.at[i]];
-        const uint32_t root = touching_root(t, g->now.cluster_of[i]);
-        if (number[root] == ACCEL_NONE) {
-            number[root] = (uint32_t)g->sum.count;
-            if (!array_extend(memory_of(g), &g->sum, 1))
-                return build_no_memory(g->parts->build);
-            g->sum.at[number[root]] = (struct cluster){.box = box_empty()};
-        }
-        g->now.cluster_of[i] = number[root];
-        box_add(&g->sum.at[number[root]].box, &crumb->box);
-        g->sum.at[number[root]].count += crumb->count;
-    }
-    return true;
-}
+/* ----------------------------------------------------------- the best partition ---- */
 
 static double cost(const struct gatherer *g)
 {
-    const accel_box all = frame_box(&g->parts->sizes.frame, &g->box);
-    double sum = box_area(&all) * log2((double)g->sum.count);
-    for (size_t i = 0; i < g->sum.count; i++)
-        sum += parts_cost(g->parts, &g->sum.at[i].box, g->sum.at[i].count);
+    double sum = box_area(&g->box) * log2((double)g->now.count);
+    for (size_t i = 0; i < g->now.count; i++)
+        sum += parts_unit_cost(g->parts, &g->now.at[i].box, g->now.at[i].count);
     return sum;
 }
 
-/* Makes the partition for the gap of this octave. */
-static bool partition(struct gatherer *g)
+static void keep(struct gatherer *g)
 {
-    struct touching t = {0};
-    uint32_t *number = NULL;
-    const bool fine =
-        enter(g, &t) && (number = new_numbers(g, t.groups.count)) != NULL && sum_up(g, &t, number);
-    free_numbers(g, number, t.groups.count);
-    touching_free(memory_of(g), &t);
-    g->now.clusters = g->sum.count;
-    g->now.cost = fine ? cost(g) : 0.0;
-    return fine;
+    memcpy(g->best.at, g->cluster_of.at, g->crumbs.count * sizeof *g->best.at);
 }
 
-/* Is the partition legal, and cheaper than the best so far? */
-static bool is_better(const struct gatherer *g)
+/* Keeps the partition if it is legal, and cheaper than the best so far. */
+static void judge(struct gatherer *g)
 {
     const double allowed = fmax(PARTS_CRUMB, (double)g->primitives / PARTS_CRUMB);
-    return (double)g->now.clusters <= allowed &&
-           (g->best.clusters == 0 || g->now.cost < g->best.cost);
+    if ((double)g->now.count > allowed)
+        return;
+    const double now = cost(g);
+    if (now >= g->best_cost)
+        return;
+    g->best_cost = now;
+    keep(g);
 }
 
-/* Finds the best partition. */
-static bool sweep(struct gatherer *g)
+static bool sweep(struct gatherer *g, double gap)
 {
-    for (;; g->octave--) {
-        if (!partition(g))
+    if (g->primitives > LEAST && !coarsen(g))
+        return false;
+    for (; g->now.count > 1 && gap < 1.0; gap *= 2.0) {
+        if (!join_over(g, gap))
             return false;
-        if (is_better(g)) {
-            const struct partition best = g->now;
-            g->now = g->best;
-            g->best = best;
-        }
-        if (g->octave == 0 || g->sum.count == 1)
-            return true;
+        judge(g);
     }
+    return true;
 }
 
-static void apply(struct gatherer *g)
+static bool apply(struct gatherer *g)
 {
     struct parts *p = g->parts;
-    uint32_t *first = g->now.cluster_of;
-    memset(first, 0xff, g->crumbs.count * sizeof *first);
+    g->number.count = 0;
+    if (!array_extend(memory_of(g), &g->number, g->crumbs.count))
+        return build_no_memory(p->build);
+    memset(g->number.at, 0xff, g->crumbs.count * sizeof *g->number.at);
     for (size_t i = 0; i < g->crumbs.count; i++) {
-        uint32_t *root = &first[g->best.cluster_of[i]];
+        uint32_t *root = &g->number.at[g->best.at[i]];
         *root = *root == ACCEL_NONE ? g->crumbs.at[i] : parts_join(p, *root, g->crumbs.at[i]);
     }
+    return true;
 }
 
-static bool gather_class(struct parts *p, uint32_t class)
+/* Are there so many parts that small ones must be gathered? */
+static bool too_many(const struct gatherer *g)
+{
+    return g->crumbs.count > 1 &&
+           (g->parts->crumb > PARTS_CRUMB || g->roots > g->all / PARTS_CRUMB);
+}
+
+/* Finds the best partition over gaps, or the one of what touches, and applies it. */
+static bool gather(struct gatherer *g, double gap, bool touching)
+{
+    if (!array_extend(memory_of(g), &g->best, g->crumbs.count))
+        return build_no_memory(g->parts->build);
+    if (touching) {
+        if (!join_over(g, 0.0))
+            return false;
+        keep(g);
+        g->best_cost = 0.0;
+    } else if (!too_many(g)) {
+        return true;
+    } else if (!sweep(g, gap > 0.0 ? gap : mean_size(g))) {
+        return false;
+    }
+    return isinf(g->best_cost) || apply(g);
+}
+
+static bool gather_class(struct parts *p, uint32_t class, double gap, bool touching)
 {
     struct gatherer g = {.parts = p};
-    bool fine = collect(&g, class);
-    const size_t n = g.crumbs.count;
-    if (fine && n > 1) {
-        fine = (g.now.cluster_of = new_numbers(&g, n)) != NULL &&
-               (g.best.cluster_of = new_numbers(&g, n)) != NULL && sweep(&g);
-        if (fine && g.best.clusters > 0)
-            apply(&g);
-        free_numbers(&g, g.now.cluster_of, n);
-        free_numbers(&g, g.best.cluster_of, n);
-    }
-    array_free(memory_of(&g), &g.sum);
-    array_free(memory_of(&g), &g.crumbs);
+    struct memory *m = memory_of(&g);
+    const bool fine =
+        collect(&g, class, touching) && (g.crumbs.count < 2 || gather(&g, gap, touching));
+    array_free(m, &g.crumbs);
+    array_free(m, &g.now);
+    array_free(m, &g.next);
+    array_free(m, &g.order);
+    array_free(m, &g.group);
+    array_free(m, &g.number);
+    array_free(m, &g.cluster_of);
+    array_free(m, &g.best);
     return fine;
 }
 
-bool parts_join_crumbs(struct parts *p)
+bool parts_join_touching(struct parts *p)
 {
     for (uint32_t c = 0; c < p->sizes.classes; c++)
-        if (!gather_class(p, c))
+        if (!gather_class(p, c, 0.0, true))
+            return false;
+    return true;
+}
+
+bool parts_join_crumbs(struct parts *p, const struct look *look)
+{
+    for (uint32_t c = 0; c < p->sizes.classes; c++)
+        if (!gather_class(p, c, look ? ldexp(0.5, -(int)look->octave[c]) : 0.0, false))
             return false;
     return true;
 }

@@ -35,7 +35,12 @@ bool parts_new(struct parts *p, uint32_t size_class, uint32_t *number)
 double parts_cost(const struct parts *p, const accel_box *box, double count)
 {
     const accel_box unit = frame_box(&p->sizes.frame, box);
-    return box_area(&unit) * (p->build->a->prims.test_cost + log2(count));
+    return parts_unit_cost(p, &unit, count);
+}
+
+double parts_unit_cost(const struct parts *p, const accel_box *unit, double count)
+{
+    return box_area(unit) * (p->build->a->prims.test_cost + log2(count));
 }
 
 bool parts_tick(const struct parts *p, size_t i)

@@ -1,38 +1,19 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "cluster_sizes.h"
 
-/* Values of a double's exponent field. */
-enum { EXPONENTS = 2048 };
-
-/* What one pass over the boxes finds. */
-struct census {
-    accel_box scene;
-    uint64_t count[EXPONENTS]; /* by the exponent of the size */
-    double largest[EXPONENTS];
-};
-
-static uint32_t exponent_of(double size)
+/* From exponents to octaves: the frame's scale is a power of two. */
+static void count_octaves(const struct build *build, struct sizes *s)
 {
-    uint64_t bits;
-    memcpy(&bits, &size, sizeof bits);
-    return (uint32_t)(bits >> 52);
+    for (uint32_t e = 0; e < BUILD_SIZES; e++)
+        if (build->sizes[e] > 0)
+            s->count[octave_of(ldexp(1.0, (int)e - 1023) * s->frame.scale)] += build->sizes[e];
 }
 
-static bool take_census(struct build *build, struct census *c)
+uint32_t sizes_grid(uint32_t top, uint32_t octave)
 {
-    const struct primitives *p = &build->a->prims;
-    *c = (struct census){.scene = box_empty()};
-    for (size_t i = 0; i < p->bounded.count; i++) {
-        const accel_box *b = &p->box[p->bounded.at[i]];
-        const double size = box_longest(b);
-        const uint32_t e = exponent_of(size);
-        box_add(&c->scene, b);
-        c->count[e]++;
-        c->largest[e] = size > c->largest[e] ? size : c->largest[e];
-        if (i % 16384 == 0 && !build_tick(build, 0.0))
-            return false;
-    }
-    return true;
+    if (octave >= top)
+        return top + (octave - top) / SIZES_PER_GRID * SIZES_PER_GRID;
+    return top >= SIZES_PER_GRID && octave >= top - SIZES_PER_GRID ? top - SIZES_PER_GRID : 0;
 }
 
 /* Cuts the octaves that have primitives into classes. */
@@ -52,25 +33,17 @@ static void make_classes(struct sizes *s, double octaves)
         span++;
         s->class_of[o] = s->classes - 1;
         s->top_of[o] = top;
-        s->largest[o] = s->largest[top];
+        s->grid_of[o] = sizes_grid(top, o);
     }
 }
 
-bool sizes_measure(struct build *build, struct sizes *s, double octaves)
+struct sizes sizes_of(const struct build *build, double octaves)
 {
-    struct census c;
-    *s = (struct sizes){.classes = 0};
-    if (!take_census(build, &c))
-        return false;
-    s->frame = frame_of(&c.scene);
-    for (int e = 0; e < EXPONENTS; e++) {
-        if (c.count[e] == 0)
-            continue;
-        const double size = c.largest[e] * s->frame.scale;
-        const uint32_t o = octave_of(size);
-        s->count[o] += c.count[e];
-        s->largest[o] = size > s->largest[o] ? size : s->largest[o];
-    }
+    struct sizes sizes = {.frame = frame_of(&build->a->prims.bounds)}, *s = &sizes;
+    count_octaves(build, s);
+    for (uint32_t g = 0; g < CELLS_OCTAVES; g++)
+        s->too_large[g] = g > SIZES_PER_GRID ? ldexp(1.0, SIZES_PER_GRID - (int)g) / s->frame.scale
+                                             : (double)INFINITY;
     make_classes(s, isnan(octaves) ? CELLS_OCTAVES : octaves);
-    return true;
+    return sizes;
 }

@@ -9,6 +9,11 @@ struct part {
     float lo[3], hi[3], gap;
 };
 
+bool touching_reserve(struct memory *m, struct touching *t, size_t boxes)
+{
+    return cells_reserve(m, &t->cells, boxes) && array_reserve(m, &t->groups, boxes);
+}
+
 uint32_t touching_root(struct touching *t, uint32_t group)
 {
     struct group *at = t->groups.at;
@@ -29,17 +34,13 @@ static void unite(struct touching *t, uint32_t a, uint32_t b)
         t->groups.at[a].parent = b;
 }
 
-static struct part part_in(const accel_box *unit, uint32_t octave, const uint32_t cell[3],
-                           double reach)
+/* One axis of a box's part in a cell of the grid. */
+static inline void clip(struct part *p, int k, const accel_box *unit, double cells, uint32_t cell,
+                        double reach)
 {
-    const double cells = (double)(1u << octave);
-    struct part p = {.gap = (float)(2.0 * reach)};
-    for (int k = 0; k < 3; k++) {
-        const double lo = unit->lo[k] * cells - cell[k], hi = unit->hi[k] * cells - cell[k];
-        p.lo[k] = (float)(lo > -reach ? lo : -reach);
-        p.hi[k] = (float)(hi < 1.0 + reach ? hi : 1.0 + reach);
-    }
-    return p;
+    const double lo = unit->lo[k] * cells - cell, hi = unit->hi[k] * cells - cell;
+    p->lo[k] = (float)(lo > -reach ? lo : -reach);
+    p->hi[k] = (float)(hi < 1.0 + reach ? hi : 1.0 + reach);
 }
 
 static bool touches(const struct group *g, const struct part *p)
@@ -131,46 +132,50 @@ uint32_t touching_enter(struct memory *m, struct touching *t, const accel_box *u
                         struct touch_rule rule)
 {
     const struct span s = span_of(unit, rule.octave, rule.reach);
+    const double cells = (double)(1u << rule.octave);
+    struct part p = {.gap = (float)(2.0 * rule.reach)};
     uint32_t group = ACCEL_NONE, c[3];
-    for (c[2] = s.first[2]; c[2] <= s.last[2]; c[2]++)
-        for (c[1] = s.first[1]; c[1] <= s.last[1]; c[1]++)
+    for (c[2] = s.first[2]; c[2] <= s.last[2]; c[2]++) {
+        for (c[1] = s.first[1]; c[1] <= s.last[1]; c[1]++) {
             for (c[0] = s.first[0]; c[0] <= s.last[0]; c[0]++) {
+                /* Entering a part may grow it, on every axis. */
+                for (int k = 0; k < 3; k++)
+                    clip(&p, k, unit, cells, c[k], rule.reach);
                 const uint64_t key = cell_key(rule.class, rule.octave, c[0], c[1], c[2]);
-                struct part p = part_in(unit, rule.octave, c, rule.reach);
                 if (!enter_cell(m, t, key, &p, &group))
                     return ACCEL_NONE;
             }
+        }
+    }
     return group;
+}
+
+/* Joins `group` with those of a cell's list that the part touches. */
+static void join_list(struct touching *t, uint32_t list, const struct part *p, uint32_t group)
+{
+    for (; list != ACCEL_NONE; list = t->groups.at[list].next)
+        if (touches(&t->groups.at[list], p))
+            unite(t, group, list);
 }
 
 void touching_join(struct touching *t, const accel_box *unit, struct touch_rule rule,
                    uint32_t group)
 {
     const struct span s = span_of(unit, rule.octave, rule.reach);
+    const double cells = (double)(1u << rule.octave);
+    struct part p = {.gap = (float)(2.0 * rule.reach)};
     uint32_t c[3];
-    for (c[2] = s.first[2]; c[2] <= s.last[2]; c[2]++)
-        for (c[1] = s.first[1]; c[1] <= s.last[1]; c[1]++)
+    for (c[2] = s.first[2]; c[2] <= s.last[2]; c[2]++) {
+        clip(&p, 2, unit, cells, c[2], rule.reach);
+        for (c[1] = s.first[1]; c[1] <= s.last[1]; c[1]++) {
+            clip(&p, 1, unit, cells, c[1], rule.reach);
             for (c[0] = s.first[0]; c[0] <= s.last[0]; c[0]++) {
-                const struct part p = part_in(unit, rule.octave, c, rule.reach);
-                uint32_t list =
-                    cells_get(&t->cells, cell_key(rule.class, rule.octave, c[0], c[1], c[2]));
-                for (; list != ACCEL_NONE; list = t->groups.at[list].next)
-                    if (touches(&t->groups.at[list], &p))
-                        unite(t, group, list);
+                clip(&p, 0, unit, cells, c[0], rule.reach);
+                const uint64_t key = cell_key(rule.class, rule.octave, c[0], c[1], c[2]);
+                join_list(t, cells_get(&t->cells, key), &p, group);
             }
-}
-
-accel_box touching_box(const struct group *g, uint64_t key)
-{
-    const uint32_t octave = key >> 54 & 31;
-    const double side = ldexp(1.0, -(int)octave);
-    accel_box unit;
-    for (int k = 0; k < 3; k++) {
-        const double cell = (double)(key >> (36 - 18 * k) & 0x3ffff);
-        unit.lo[k] = side * (cell + (double)g->lo[k]);
-        unit.hi[k] = side * (cell + (double)g->hi[k]);
+        }
     }
-    return unit;
 }
 
 void touching_free(struct memory *m, struct touching *t)

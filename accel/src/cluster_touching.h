@@ -32,6 +32,9 @@ struct touching {
     ARRAY_OF(struct group) groups;
 };
 
+/* Makes room for about so many boxes. Zero before. */
+bool touching_reserve(struct memory *m, struct touching *t, size_t boxes);
+
 /* How boxes are entered. */
 struct touch_rule {
     uint32_t class;  /* boxes of different classes do not meet */
@@ -49,9 +52,6 @@ void touching_join(struct touching *t, const accel_box *unit, struct touch_rule 
 
 /* The number of a group's component: its root group. */
 uint32_t touching_root(struct touching *t, uint32_t group);
-
-/* A group's box in units of the frame, if it is in the cell of this key. */
-accel_box touching_box(const struct group *g, uint64_t key);
 
 void touching_free(struct memory *m, struct touching *t);
 

@@ -47,7 +47,7 @@ static bool build(struct build *build)
     build_phase(build, "density");
     if (!array_extend(&k->base.memory, &k->pool.grids, 1))
         return build_no_memory(build);
-    k->pool.grids.at[0] = (struct grid){.box = primitives_bounds(p)};
+    k->pool.grids.at[0] = (struct grid){.box = p->bounds};
     struct grid_plan plan =
         grid_plan(p, &k->pool, &k->pool.grids.at[0].box, all, k->base.option[DENSITY]);
     k->base.option[DENSITY] = plan.density;

@@ -27,6 +27,9 @@ struct accel {
     accel_info info;               /* as accel_describe hands it out */
 };
 
+/* Values of a double's exponent field. */
+enum { BUILD_SIZES = 2048 };
+
 /* One build under way. */
 struct build {
     struct accel *a;             /* what is built */
@@ -35,6 +38,8 @@ struct build {
     const char *phase;           /* name of the phase under way */
     struct timespec phase_start; /* when it began */
     struct timespec last_tick;   /* when the progress hook was last called */
+    uint32_t sizes[BUILD_SIZES]; /* how many bounded primitives have a longest side with this binary
+                                    exponent */
 };
 
 /* How a kind's nodes per ray grow with the primitives. */

@@ -45,7 +45,7 @@ static bool build(struct build *build)
 {
     struct octree_kind *o = (struct octree_kind *)build->a;
     const struct primitives *p = &o->base.prims;
-    const accel_box tight = primitives_bounds(p);
+    const accel_box tight = p->bounds;
     const accel_box root = o->base.option[ROOT] == 0 ? cube_around(&tight) : tight;
     const struct octree_rule rule = {o->base.option[LEAF], o->base.option[DEPTH]};
     build_phase(build, "octree");

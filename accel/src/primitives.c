@@ -233,6 +233,13 @@ static void note_invalid(accel_info *info, accel_id name)
     info->skipped++;
 }
 
+static uint32_t exponent_of(double size)
+{
+    uint64_t bits;
+    memcpy(&bits, &size, sizeof bits);
+    return (uint32_t)(bits >> 52) % BUILD_SIZES;
+}
+
 /* Enters one primitive into the lists and counts; makes its box the padded one. */
 static bool enter(struct build *build, uint32_t id, enum sort sort)
 {
@@ -240,6 +247,8 @@ static bool enter(struct build *build, uint32_t id, enum sort sort)
     accel_box *box = &p->box[id];
     if (sort == BOUNDED) {
         *box = box_padded(box);
+        box_add(&p->bounds, box);
+        build->sizes[exponent_of(box_longest(box))]++;
         return append(build, &p->bounded, id);
     }
     if (sort == UNBOUNDED) {
@@ -316,6 +325,7 @@ bool primitives_copy(struct build *build, const accel_scene *scene)
             return false;
         first += p->geometry[g].count;
     }
+    p->bounds = box_empty();
     p->test_cost = mean_cost(p);
     p->only_triangles = only_triangles(p);
     if (total == 0)
@@ -328,14 +338,6 @@ bool primitives_copy(struct build *build, const accel_scene *scene)
     build->a->info.unbounded = p->unbounded.count;
     array_trim(&build->a->memory, &p->bounded);
     return true;
-}
-
-accel_box primitives_bounds(const struct primitives *p)
-{
-    accel_box bounds = box_empty();
-    for (size_t i = 0; i < p->bounded.count; i++)
-        box_add(&bounds, &p->box[p->bounded.at[i]]);
-    return bounds;
 }
 
 static void free_data(struct memory *m, struct geometry *g)

@@ -41,6 +41,7 @@ struct primitives {
     uint32_t count;            /* ids */
     struct ids bounded;        /* what structures are built over, rising */
     struct ids unbounded;      /* objects with an infinite side, rising */
+    accel_box bounds;          /* around the padded boxes of all that is bounded */
     bool only_triangles;       /* no spheres, no objects */
     double test_cost;          /* mean cost of a test in units of visiting a node */
 };
@@ -53,9 +54,6 @@ bool primitives_copy(struct build *build, const accel_scene *scene);
  * then owns, and frees the geometries' own. Otherwise *out is NULL. False if there is no memory. */
 bool primitives_move_triangles(struct build *build, const uint32_t *ids, size_t count,
                                double **out);
-
-/* The box around the padded boxes of all that is bounded. */
-accel_box primitives_bounds(const struct primitives *p);
 
 void primitives_free(struct memory *m, struct primitives *p);
 
