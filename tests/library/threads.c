@@ -100,20 +100,30 @@ static void build_together(const struct test_scene *s, const char *config, uint6
     accel_free(a);
 }
 
-static void test_together(void **state)
+/* All configs, or the forms alone. */
+static void try_together(const char *scene, bool all)
 {
-    (void)state;
     struct test_scene s;
     struct tested *list;
     const size_t count = tested_configs(&list);
-    scene_make(&s, scene_maker_find("mixed"), test_seed());
+    scene_make(&s, scene_maker_find(scene), test_seed());
     const uint64_t expected = judge_hash(&s);
     for (size_t i = 0; i < count; i++) {
+        if (!all && !list[i].form)
+            continue;
         query_together(&s, list[i].config, expected);
         build_together(&s, list[i].config, expected);
     }
     scene_free(&s);
     free(list);
+}
+
+static void test_together(void **state)
+{
+    (void)state;
+    try_together("mixed", true);
+    try_together("stack", false);
+    try_together("twins", false);
 }
 
 /* ---------------------------------------------------- structures that rays build ---- */
@@ -243,7 +253,8 @@ static const size_t small_stack = 128 << 10;
 static void test_small_stack(void **state)
 {
     (void)state;
-    static const char *const scenes[] = {"series", "nested-spheres", "sizes", "copies-512"};
+    static const char *const scenes[] = {"series",           "nested-spheres", "nested-boxes",
+                                         "nested-triangles", "sizes",          "copies-512"};
     struct tested *list;
     const size_t count = tested_configs(&list);
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
