@@ -72,6 +72,15 @@ void part_object(struct part *p, const accel_box *box, enum behaviour behaviour,
     memcpy(o->p, data, sizeof o->p);
 }
 
+void scene_give(struct test_scene *s, const accel_ray *ray)
+{
+    if (s->given_count == s->given_room) {
+        s->given_room = s->given_room ? 2 * s->given_room : 16;
+        s->given = must_resize(s->given, s->given_room * sizeof *s->given);
+    }
+    s->given[s->given_count++] = *ray;
+}
+
 static size_t part_doubles(const struct part *p)
 {
     return (p->type == ACCEL_TRIANGLES ? 9u
@@ -163,6 +172,7 @@ void scene_free(struct test_scene *s)
         free(p->boxes);
         free(p->objects);
     }
+    free(s->given);
     scene_open(s);
 }
 

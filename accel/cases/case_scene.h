@@ -46,8 +46,10 @@ struct test_scene {
     accel_scene scene; /* what accel_build takes, once scene_close was called */
     accel_geometry geometry[MAX_GEOMETRIES];
     struct part part[MAX_GEOMETRIES];
-    uint32_t count; /* parts */
-    accel_box box;  /* of what is finite */
+    uint32_t count;                   /* parts */
+    accel_box box;                    /* of what is finite */
+    accel_ray *given;                 /* rays that come with the scene, of reported cases */
+    uint32_t given_count, given_room; /* of them; there is room for */
 };
 
 void scene_open(struct test_scene *s);
@@ -59,6 +61,9 @@ void part_triangle(struct part *p, const double a[3], const double b[3], const d
 void part_sphere(struct part *p, const double centre[3], double radius);
 void part_object(struct part *p, const accel_box *box, enum behaviour behaviour,
                  const double data[6]);
+
+/* Adds a ray to those that come with the scene. */
+void scene_give(struct test_scene *s, const accel_ray *ray);
 
 /* Makes s->scene and s->box from the parts. */
 void scene_close(struct test_scene *s);

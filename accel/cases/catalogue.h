@@ -56,6 +56,8 @@ make_scene make_soup, make_log_sizes, make_scaled, make_shifted, make_slivers, m
     make_huge_and_tiny, make_mixed; /* soups.c */
 make_scene make_degenerate, make_coincident, make_nested, make_series, make_few, make_all_invalid,
     make_empty; /* limits.c */
+make_scene make_skinny, make_slab, make_collision, make_pyramid,
+    make_quantised; /* reported.c */
 make_scene make_lattice, make_ball_mesh, make_split_square, make_terrain, make_fan, make_stack,
     make_twins, make_exotic; /* meshes.c */
 

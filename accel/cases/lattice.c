@@ -11,7 +11,8 @@ static int64_t cross_dot(const int64_t d[3], const int64_t a[3], const int64_t b
            d[2] * (a[0] * b[1] - a[1] * b[0]);
 }
 
-/* All coordinates are below 2^7, so that every product below stays far inside 63 bits. */
+/* Coordinates are below 2^11 and directions below 2^4, so that every product below stays far inside
+ * 63 bits. */
 static bool crosses(const struct line *l, const double *vertices, struct crossing *c)
 {
     int64_t p[3][3], e[3];
@@ -84,6 +85,16 @@ accel_ray lattice_line(const struct test_scene *s, struct dice *d, struct line *
         dir[1] = 1;
     }
     return accel_ray_from(org, dir);
+}
+
+struct line lattice_line_of(const accel_ray *ray)
+{
+    struct line l;
+    for (int k = 0; k < 3; k++) {
+        l.org[k] = (int64_t)(2 * ray->org[k]);
+        l.dir[k] = (int64_t)ray->dir[k];
+    }
+    return l;
 }
 
 bool crossing_is(const struct crossing *c, const accel_hit *h)

@@ -24,6 +24,9 @@ struct crossing {
 /* A random line through the box of a scene or past it, as integers and as a ray. */
 accel_ray lattice_line(const struct test_scene *s, struct dice *d, struct line *l);
 
+/* A ray from half integers along integers, as integers. */
+struct line lattice_line_of(const accel_ray *ray);
+
 /* What the line hits in front of its origin, with `backwards` behind it as well, in the library's
  * order. At most `most` of a scene of triangles with integer corners; returns how many. */
 uint32_t lattice_crossings(const struct test_scene *s, const struct line *l, bool backwards,

@@ -304,6 +304,13 @@ static accel_ray far_ray(const struct test_scene *s, const accel *judge, struct 
     return towards(org, to);
 }
 
+/* Those that come with the scene, one after the other. */
+static accel_ray given_ray(const struct test_scene *s, const accel *judge, struct dice *d,
+                           uint64_t i)
+{
+    return s->given_count ? s->given[i % s->given_count] : mix_ray(s, judge, d, i);
+}
+
 static const char *const for_special[] = {"scale-1", "mixed", "lattice", "huge-and-tiny", NULL};
 static const char *const for_origins[] = {"lattice", "ball-mesh", "stack", "mixed", NULL};
 static const char *const for_lattice[] = {"lattice", "stack", NULL};
@@ -312,6 +319,8 @@ static const char *const for_lengths[] = {"soup", "mixed", "sizes", NULL};
 static const char *const for_secondary[] = {"ball-mesh", "mixed", "slivers", NULL};
 static const char *const for_exotic[] = {"exotic", "mixed", "huge-and-tiny", NULL};
 static const char *const for_far[] = {"scale-1", "shift-1e6", "mixed-key", NULL};
+static const char *const for_reported[] = {"embree-387",   "embree-416",  "embree-423",
+                                           "povray-fs324", "tinybvh-168", NULL};
 static const char *const for_all[] = {NULL};
 
 const struct ray_family ray_families[] = {
@@ -326,6 +335,7 @@ const struct ray_family ray_families[] = {
     {"R5", "secondary", "1,000 rays leave each hit, skipping its primitive", secondary_ray, 100000,
      for_secondary},
     {"R6", "exotic-mix", "the mix, at objects that report oddly", mix_ray, 5000, for_exotic},
+    {"G6", "reported", "the rays of the reports", given_ray, 10000, for_reported},
     {"G4", "far", "origins 1e3..1e14 extents away", far_ray, 6000, for_far},
     {NULL, NULL, NULL, NULL, 0, NULL},
 };
