@@ -58,6 +58,10 @@ static void print_time(const accel_info *info)
         printf("%s%s %.6f", i == 0 ? ": " : ", ", info->phases[i].name, info->phases[i].seconds);
     }
     printf("\n");
+    for (uint32_t i = 0; i < info->left_out_count; i++) {
+        printf("  left out      %s: %" PRIu64 " bytes, %.2g s\n", info->left_out[i].what,
+               info->left_out[i].bytes, info->left_out[i].seconds);
+    }
     for (uint32_t i = 0; i < info->note_count; i++) {
         printf("  note          %s\n", info->notes[i]);
     }
@@ -150,6 +154,10 @@ const accel_command accel_command_info = {
     .arguments = "SCENE [-a CONFIG]...",
     .summary = "build structures over a scene and describe them",
     .details =
+        "What a scene has no need of is left out; its bytes are counted, the seconds of building "
+        "it\n"
+        "predicted: those that the same phase of this build took for each byte that it made.\n"
+        "\n"
         "SCENE is a built-in scene (see accel kinds) or a mesh file that assimp reads. Of a file\n"
         "each mesh that a node refers to is a geometry, nodes depth first; PLY, STL and OFF are "
         "one\n"

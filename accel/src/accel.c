@@ -78,6 +78,21 @@ bool build_no_memory(struct build *build)
     return false;
 }
 
+void build_left_out(struct build *build, size_t bytes, size_t made, const char *format, ...)
+{
+    accel_info *info = &build->a->info;
+    if (info->left_out_count == ACCEL_INFO_LEFT_OUT)
+        return;
+    const double per_byte = made > 0 ? seconds_since(&build->phase_start) / (double)made : 0.0;
+    const uint32_t i = info->left_out_count++;
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(info->left_out[i].what, sizeof info->left_out[i].what, format, arguments);
+    va_end(arguments);
+    info->left_out[i].bytes = bytes;
+    info->left_out[i].seconds = per_byte * (double)bytes;
+}
+
 __attribute__((format(printf, 2, 0))) static void add_note(accel_info *info, const char *format,
                                                            va_list arguments)
 {

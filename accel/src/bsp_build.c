@@ -411,8 +411,13 @@ static void describe(const struct grower *g, const struct subtree *root)
     info->nodes = b->nodes.count - info->leaves;
     info->references = b->refs.count;
     info->depth = root->height;
-    build_note(g->build, "bsp: %llu empty cells are not stored",
-               (unsigned long long)(info->nodes + 1 - info->leaves));
+    const size_t empty = (size_t)(info->nodes + 1 - info->leaves);
+    const size_t made = b->nodes.count * sizeof *b->nodes.at + b->refs.count * sizeof *b->refs.at;
+    if (empty > 0)
+        build_left_out(g->build, empty * sizeof *b->nodes.at, made,
+                       "%zu of %zu cells are empty: not stored", empty, (size_t)info->nodes + 1);
+    if (info->nodes == 0)
+        build_left_out(g->build, 2 * sizeof *b->nodes.at, made, "few primitives: a list, no tree");
     if (g->cut_short > 0)
         build_note(g->build, "bsp: the budget of %d references per primitive ended %u splits",
                    BUDGET, g->cut_short);

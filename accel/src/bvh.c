@@ -15,6 +15,17 @@ static const accel_option options[] = {
               .whole = true},
 };
 
+static void describe(struct build *build, const struct bvh *b)
+{
+    const size_t vertices = b->refs.count * 9 * sizeof(double);
+    const size_t made = b->refs.count * (sizeof *b->refs.at + sizeof(accel_box));
+    if (b->triangles)
+        build_left_out(build, vertices, vertices,
+                       "only triangles: vertices in the order of the leaves, none in the scene's");
+    if (b->nodes.count == 0)
+        build_left_out(build, sizeof *b->nodes.at, made, "few primitives: a list, no tree");
+}
+
 static bool build(struct build *build)
 {
     struct bvh *b = (struct bvh *)build->a;
@@ -24,6 +35,7 @@ static bool build(struct build *build)
     b->base.info.nodes = b->nodes.count;
     b->base.info.leaves = b->nodes.count + 1;
     b->base.info.references = b->refs.count;
+    describe(build, b);
     return true;
 }
 

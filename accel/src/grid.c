@@ -27,13 +27,12 @@ static void describe(struct build *build, const struct grid_kind *k, const struc
 {
     accel_info *info = &build->a->info;
     const struct grid *g = &k->pool.grids.at[0];
-    const double cells = (double)g->cells[0] * g->cells[1] * g->cells[2];
     info->nodes = 1;
     info->leaves = k->pool.starts.count - 1;
     info->references = k->pool.refs.count;
     info->depth = 1;
-    build_note(build, "%u x %u x %u cells, %.1f %% of them empty and not stored", g->cells[0],
-               g->cells[1], g->cells[2], 100.0 * (1.0 - (double)info->leaves / cells));
+    build_note(build, "%u x %u x %u cells", g->cells[0], g->cells[1], g->cells[2]);
+    grid_note_empty(build, &k->pool);
     if (plan->coarser)
         build_note(build, "coarser than density=%g asks: the memory would not be in proportion",
                    plan->density);

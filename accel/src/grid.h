@@ -100,6 +100,18 @@ bool grid_build(struct build *build, struct grid_pool *pool, size_t number, stru
 bool grid_validate(const accel *a, const struct grid_pool *pool, size_t number,
                    struct grid_items items, accel_error *error);
 
+/* Bytes of all parts. */
+size_t grid_pool_bytes(const struct grid_pool *pool);
+
+/* Notes what the empty cells of all grids would take beside what finds the others. */
+void grid_note_empty(struct build *build, const struct grid_pool *pool);
+
+/* Bytes of a grid's parts apart from its references, if it has one cell. */
+enum {
+    GRID_LEAST_BYTES = sizeof(struct grid) + 3 * (GRID_BRICK + 1) * sizeof(double) +
+                       sizeof(uint64_t) + 2 * sizeof(uint32_t)
+};
+
 void grid_pool_trim(struct memory *m, struct grid_pool *pool);
 void grid_pool_free(struct memory *m, struct grid_pool *pool);
 

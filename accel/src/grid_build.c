@@ -254,6 +254,29 @@ bool grid_build(struct build *build, struct grid_pool *pool, size_t number, stru
            place_runs(&m) && pass(&m, fill_in);
 }
 
+size_t grid_pool_bytes(const struct grid_pool *p)
+{
+    return p->grids.count * sizeof *p->grids.at + p->planes.count * sizeof *p->planes.at +
+           p->masks.count * (sizeof *p->masks.at + sizeof *p->firsts.at) +
+           (p->starts.count + p->refs.count) * sizeof(uint32_t);
+}
+
+void grid_note_empty(struct build *build, const struct grid_pool *pool)
+{
+    size_t cells = 0;
+    for (size_t i = 0; i < pool->grids.count; i++) {
+        const uint32_t *n = pool->grids.at[i].cells;
+        cells += (size_t)n[0] * n[1] * n[2];
+    }
+    const size_t empty = cells - (pool->starts.count - 1);
+    const size_t places = empty * sizeof *pool->starts.at;
+    const size_t masks = pool->masks.count * (sizeof *pool->masks.at + sizeof *pool->firsts.at);
+    if (places > masks)
+        build_left_out(build, places - masks, grid_pool_bytes(pool),
+                       "%zu of %zu cells are empty: not stored (%zu bytes of bit masks)", empty,
+                       cells, masks);
+}
+
 void grid_pool_trim(struct memory *m, struct grid_pool *pool)
 {
     array_trim(m, &pool->grids);

@@ -100,6 +100,8 @@ static bool build_octrees(struct build *build, struct hoo_kind *h)
             return false;
     }
     octree_pool_trim(&h->base.memory, &h->pool);
+    octree_note_empty(build, &h->pool);
+    octree_note_lists(build, &h->pool, h->trees.at, h->trees.count);
     return true;
 }
 
@@ -113,7 +115,8 @@ static bool build_top(struct build *build, struct hoo_kind *h)
 {
     const size_t count = h->clustering.clusters.count;
     if (count == 1) {
-        build_note(build, "one cluster: no tree above its octree");
+        build_left_out(build, sizeof(struct boxtree_node), octree_pool_bytes(&h->pool),
+                       "one cluster: no tree above its octree");
         return true;
     }
     build_phase(build, "tree");
@@ -123,12 +126,6 @@ static bool build_top(struct build *build, struct hoo_kind *h)
 static void describe(struct build *build, const struct hoo_kind *h)
 {
     accel_info *info = &build->a->info;
-    const size_t clusters = h->trees.count;
-    size_t lists = 0;
-    for (size_t i = 0; i < clusters; i++)
-        lists += h->trees.at[i].root.count > 0;
-    if (lists > 0)
-        build_note(build, "%zu of %zu clusters are short: lists, no octree", lists, clusters);
     info->nodes = h->top.nodes.count + h->pool.nodes;
     info->leaves = h->pool.leaves;
     info->references = h->pool.refs.count;

@@ -45,6 +45,7 @@ enum hug_form { HUG_FORM_DENSITY, HUG_FORM_PAPER };
 struct hug_nesting {
     struct ids home;   /* by cluster: the grid that has its primitives as items */
     struct ids parent; /* by cluster's grid: the grid around it; 0 for grid 0 */
+    size_t lists;      /* clusters without a grid */
 };
 
 /* Makes grid 0 and the other clusters' grids, with box and depth alone, and fills the nesting,

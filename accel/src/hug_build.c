@@ -320,15 +320,15 @@ static void describe(const struct builder *b)
 static void note(const struct builder *b)
 {
     const struct grid_pool *pool = &b->h->pool;
-    const double bricks = (double)pool->masks.count;
-    const size_t own = b->nesting.parent.count, clusters = b->clustering.clusters.count;
+    const size_t lists = b->nesting.lists, clusters = b->clustering.clusters.count;
+    const size_t made = grid_pool_bytes(pool);
     if (clusters == 1)
-        build_note(b->build, "one cluster: no grid above it");
-    else if (own < clusters)
-        build_note(b->build, "%zu of %zu clusters are too small or alone for a grid of their own",
-                   clusters - own, clusters);
-    build_note(b->build, "%.1f %% of the cells are empty and not stored",
-               100.0 * (1.0 - (double)(pool->starts.count - 1) / (GRID_BRICK_CELLS * bricks)));
+        build_left_out(b->build, GRID_LEAST_BYTES, made, "one cluster: no grid above its grid");
+    else if (lists > 0)
+        build_left_out(b->build, lists * GRID_LEAST_BYTES, made,
+                       "%zu of %zu clusters are short: items of the grid around, no grids", lists,
+                       clusters);
+    grid_note_empty(b->build, pool);
     if (b->build->a->option[HUG_FORM] == HUG_FORM_PAPER && !isnan(b->build->a->option[HUG_DENSITY]))
         build_note(b->build, "density is not used: it is for form=density");
     if (b->coarser)

@@ -166,8 +166,10 @@ static bool place(struct nester *s, uint32_t cluster)
     const uint32_t around = s->around.at[cluster];
     uint32_t parent = around == ACCEL_NONE ? 0 : s->n->home.at[around];
     s->n->home.at[cluster] = parent;
-    if (!has_grid(s, cluster))
+    if (!has_grid(s, cluster)) {
+        s->n->lists++;
         return true;
+    }
     const uint32_t number = (uint32_t)s->pool->grids.count;
     uint32_t depth = number == 0 ? 0 : s->pool->grids.at[parent].depth + 1;
     if (depth > HUG_MAX_NESTING) {

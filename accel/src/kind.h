@@ -92,7 +92,12 @@ bool build_tick(struct build *build, double done);
 /* Notes that memory ran out, which the failed allocation left in a->memory. Returns false. */
 bool build_no_memory(struct build *build);
 
-/* Adds a line to accel_info.notes: what was left out and why, or a limit that was met. Once. */
+/* Adds to accel_info.left_out something that would take so many bytes; the phase under way made
+ * `made` bytes of that sort. */
+__attribute__((format(printf, 4, 5))) void build_left_out(struct build *build, size_t bytes,
+                                                          size_t made, const char *format, ...);
+
+/* Adds a line to accel_info.notes: why something was chosen, or a limit that was met. Once. */
 __attribute__((format(printf, 2, 3))) void build_note(struct build *build, const char *format, ...);
 
 /* The same, of a description. */

@@ -53,6 +53,8 @@ static bool build(struct build *build)
                       1))
         return false;
     octree_pool_trim(&o->base.memory, &o->pool);
+    octree_note_empty(build, &o->pool);
+    octree_note_lists(build, &o->pool, &o->tree, 1);
     o->base.info.nodes = o->pool.nodes;
     o->base.info.leaves = o->pool.leaves;
     o->base.info.references = o->pool.refs.count;

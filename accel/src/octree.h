@@ -106,6 +106,14 @@ void octree_walk(const struct octree_pool *pool, const struct octree *tree, stru
 bool octree_validate(const accel *a, const struct octree_pool *pool, const struct octree *tree,
                      const uint32_t *ids, size_t count, accel_error *error);
 
+/* Bytes of nodes and references. */
+size_t octree_pool_bytes(const struct octree_pool *pool);
+
+/* Notes what empty cells would take; what the smallest octrees would in place of lists. */
+void octree_note_empty(struct build *build, const struct octree_pool *pool);
+void octree_note_lists(struct build *build, const struct octree_pool *pool,
+                       const struct octree *trees, size_t count);
+
 void octree_pool_trim(struct memory *m, struct octree_pool *pool);
 void octree_pool_free(struct memory *m, struct octree_pool *pool);
 

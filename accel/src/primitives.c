@@ -307,6 +307,19 @@ static bool only_triangles(const struct primitives *p)
     return true;
 }
 
+static void describe(struct build *build)
+{
+    const struct primitives *p = &build->a->prims;
+    if (!p->geometry_of)
+        build_left_out(build, p->count * sizeof *p->geometry_of, build->a->memory.bytes,
+                       "one geometry: no table of each primitive's geometry");
+    if (p->only_triangles)
+        build_left_out(
+            build, 0, 0,
+            "only triangles: no callback path; leaves are tested two by two (saves rays' "
+            "time only)");
+}
+
 bool primitives_copy(struct build *build, const accel_scene *scene)
 {
     struct primitives *p = &build->a->prims;
@@ -337,6 +350,7 @@ bool primitives_copy(struct build *build, const accel_scene *scene)
             return false;
     build->a->info.unbounded = p->unbounded.count;
     array_trim(&build->a->memory, &p->bounded);
+    describe(build);
     return true;
 }
 

@@ -313,7 +313,7 @@ typedef struct accel_kind_info {
 /* The kinds compiled into this library, `*count` of them: the table that the parser uses. */
 ACCEL_API const accel_kind_info *const *accel_kinds(size_t *count);
 
-enum { ACCEL_INFO_PHASES = 8, ACCEL_INFO_IDS = 10, ACCEL_INFO_NOTES = 12 };
+enum { ACCEL_INFO_PHASES = 8, ACCEL_INFO_IDS = 10, ACCEL_INFO_NOTES = 12, ACCEL_INFO_LEFT_OUT = 8 };
 
 /* What was built. Strings live as long as the structure. */
 typedef struct accel_info {
@@ -343,7 +343,13 @@ typedef struct accel_info {
         const char *name;
         double seconds;
     } phases[ACCEL_INFO_PHASES];
-    uint32_t note_count; /* what was left out, and why; limits that were met */
+    uint32_t left_out_count; /* what this scene has no need of, and what that saves */
+    struct {
+        char what[112]; /* and why */
+        uint64_t bytes; /* that it would take, counted from the sizes of its parts */
+        double seconds; /* to build it, predicted: those that the phase took for each byte made */
+    } left_out[ACCEL_INFO_LEFT_OUT];
+    uint32_t note_count; /* why auto chose; limits that were met */
     char notes[ACCEL_INFO_NOTES][160];
 } accel_info;
 

@@ -554,6 +554,8 @@ static std::string Describe_Structure(const accel_info& info, size_t lightsLeftO
 	for(uint32_t i = 0; i < info.phase_count; i++)
 		text += str(format("%s %s %.3f") % ((i == 0) ? " =" : " +") % info.phases[i].name % info.phases[i].seconds);
 	text += "\n";
+	for(uint32_t i = 0; i < info.left_out_count; i++)
+		text += str(format("  Left out: %s: %d bytes, %.2g s\n") % info.left_out[i].what % info.left_out[i].bytes % info.left_out[i].seconds);
 	for(uint32_t i = 0; i < info.note_count; i++)
 		text += str(format("  Note: %s\n") % info.notes[i]);
 

@@ -1,0 +1,116 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * What a scene has no need of is not built, and accel_describe says so, with bytes and seconds: no
+ * tree above one cluster, lists for short clusters, no callbacks for triangles, no empty cells.
+ */
+#include <string.h>
+
+#include "cmocka_all.h"
+#include "compare.h"
+
+static const char *const all_kinds[] = {"linear", "grid", "hug", "octree",
+                                        "hoo",    "bsp",  "bvh", NULL};
+
+/* Something that is left out, of which scene, by which kinds. */
+static const struct expected {
+    const char *scene, *words;
+    const char *const *kinds; /* NULL-ended */
+    bool saves;               /* bytes */
+    bool absent;              /* no kind may say so */
+} expectations[] = {
+    {"ball-mesh", "only triangles: no callback path", all_kinds, false, false},
+    {"ball-mesh", "one geometry: no table", all_kinds, true, false},
+    {"ball-mesh", "one cluster: no tree above", (const char *const[]){"hoo", NULL}, true, false},
+    {"ball-mesh", "one cluster: no grid above", (const char *const[]){"hug", NULL}, true, false},
+    {"ball-mesh", "cells are empty: not stored",
+     (const char *const[]){"grid", "hug", "octree", "hoo", "bsp", NULL}, true, false},
+    {"ball-mesh", "none in the scene's", (const char *const[]){"bvh", NULL}, true, false},
+    {"one-sphere", "few primitives: a list", (const char *const[]){"octree", "bsp", "bvh", NULL},
+     true, false},
+    {"one-sphere", "only triangles", all_kinds, false, true},
+    {"mixed", "only triangles", all_kinds, false, true},
+    {"mixed", "one geometry", all_kinds, false, true},
+};
+
+static bool is_compiled(const char *name)
+{
+    size_t count;
+    const accel_kind_info *const *kind = accel_kinds(&count);
+    for (size_t i = 0; i < count; i++)
+        if (strcmp(kind[i]->name, name) == 0)
+            return true;
+    return false;
+}
+
+static void check(const struct expected *e, const struct test_scene *s, const char *kind)
+{
+    accel *a = must_build(s, kind);
+    accel_info info;
+    accel_describe(a, &info);
+    bool said = false;
+    for (uint32_t i = 0; i < info.left_out_count; i++) {
+        const size_t length = strlen(info.left_out[i].what);
+        assert_true(length > 0 && length < sizeof info.left_out[i].what - 1);
+        assert_true(info.left_out[i].seconds >= 0 && info.left_out[i].seconds < 100.0);
+        if (!strstr(info.left_out[i].what, e->words))
+            continue;
+        said = true;
+        assert_true(e->saves == (info.left_out[i].bytes > 0));
+        assert_true(e->saves == (info.left_out[i].seconds > 0));
+    }
+    if (said == e->absent)
+        fail_msg("%s of %s %s '%s'", kind, e->scene, said ? "says" : "does not say", e->words);
+    accel_free(a);
+}
+
+static void test_expectations(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof expectations / sizeof *expectations; i++) {
+        struct test_scene s;
+        scene_make(&s, scene_maker_find(expectations[i].scene), test_seed());
+        for (const char *const *kind = expectations[i].kinds; *kind; kind++)
+            if (is_compiled(*kind))
+                check(&expectations[i], &s, *kind);
+        scene_free(&s);
+    }
+}
+
+/* Two balls far apart and one triangle alone: octrees for the balls, a tree above, and a list. */
+static void test_short_cluster(void **state)
+{
+    (void)state;
+    static const double left[3] = {-100.0, 0.0, 0.0}, right[3] = {100.0, 0.0, 0.0};
+    static const double alone[3][3] = {{0.0, 50.0, 0.0}, {0.1, 50.0, 0.0}, {0.0, 50.1, 0.0}};
+    static const char *const configs[][2] = {
+        {"hoo", "1 of 3 clusters are short: lists"},
+        {"hug", "1 of 3 clusters are short: items"},
+    };
+    struct test_scene s;
+    scene_open(&s);
+    struct part *p = scene_part(&s, ACCEL_TRIANGLES);
+    ball_mesh(p, left, 1.0, 3);
+    ball_mesh(p, right, 1.0, 3);
+    part_triangle(p, alone[0], alone[1], alone[2]);
+    scene_close(&s);
+    for (size_t i = 0; i < sizeof configs / sizeof *configs; i++) {
+        const struct expected list = {"two balls", configs[i][1], NULL, true, false};
+        const struct expected tree = {"two balls", "one cluster", NULL, true, true};
+        char config[40];
+        snprintf(config, sizeof config, "%s:connectivity=0,octaves=64", configs[i][0]);
+        if (!is_compiled(configs[i][0]))
+            continue;
+        check(&list, &s, config);
+        check(&tree, &s, config);
+    }
+    scene_free(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_expectations),
+        cmocka_unit_test(test_short_cluster),
+    };
+    return cmocka_run_group_tests_name("left_out", tests, NULL, NULL);
+}
