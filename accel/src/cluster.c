@@ -140,6 +140,7 @@ bool cluster_scene(struct build *build, struct clustering *c, struct cluster_rul
     array_free(m, &p.piece_of);
     array_free(m, &p.part);
     c->size_classes = p.sizes.classes;
+    c->looks = p.looks;
     build->a->info.size_classes = c->size_classes;
     build->a->info.clusters = (uint32_t)c->clusters.count;
     return fine;

@@ -13,11 +13,10 @@
  * Nothing depends on the order of the primitives but the numbers of the parts.
  */
 #include "cluster_parts.h"
-#include "order.h"
 
 enum {
     SLABS = 64,
-    FEWEST = 4 /* primitives of a piece, on average, below which a part is not split */
+    MOST_SPARE = 8 /* pieces that a part may have beyond its primitives; most will stay empty */
 };
 
 /* The slabs that a part's primitives meet: bit i of each axis. */
@@ -28,9 +27,8 @@ struct slabs {
 /* The cells of one size class. */
 struct grid {
     uint32_t octave;
-    uint32_t last; /* cell of an axis */
-    double scale;  /* from lengths to slabs */
-    size_t first;  /* of its cells in binner.table */
+    double scale; /* from lengths to slabs */
+    size_t first; /* of its cells in binner.table */
 };
 
 struct binner {
@@ -60,15 +58,19 @@ static uint32_t class_of(const struct parts *p, const accel_box *box)
     return p->sizes.classes > 1 ? p->sizes.class_of[sizes_octave(&p->sizes, box)] : 0;
 }
 
-/* The cell of a box's middle alone. */
+/* The cell of a box's middle alone. In units of the frame all is below 1, so cells and slabs are in
+ * range without a test: the scene's longest side is, and rounding is monotone. */
 static inline void find_cell(const struct frame *f, const struct grid *grid, const accel_box *box,
                              uint32_t cell[3])
 {
     const double scale = grid->scale / (2 * SLABS);
-    for (int k = 0; k < 3; k++) {
-        const double at = scale * ((box->lo[k] - f->lo[k]) + (box->hi[k] - f->lo[k]));
-        cell[k] = (uint32_t)at < grid->last ? (uint32_t)at : grid->last;
-    }
+    for (int k = 0; k < 3; k++)
+        cell[k] = (uint32_t)(scale * ((box->lo[k] - f->lo[k]) + (box->hi[k] - f->lo[k])));
+}
+
+static inline uint32_t slab_of(const struct frame *f, const struct grid *grid, double at, int k)
+{
+    return (uint32_t)((at - f->lo[k]) * grid->scale);
 }
 
 static inline struct guest guest_of(const struct frame *f, const struct grid *grid,
@@ -76,26 +78,29 @@ static inline struct guest guest_of(const struct frame *f, const struct grid *gr
 {
     struct guest g;
     for (int k = 0; k < 3; k++) {
-        g.lo[k] = (uint32_t)((box->lo[k] - f->lo[k]) * grid->scale);
-        g.hi[k] = (uint32_t)((box->hi[k] - f->lo[k]) * grid->scale);
-        const uint32_t cell = (g.lo[k] + g.hi[k]) / (2 * SLABS);
-        g.cell[k] = cell < grid->last ? cell : grid->last;
+        g.lo[k] = slab_of(f, grid, box->lo[k], k);
+        g.hi[k] = slab_of(f, grid, box->hi[k], k);
+        g.cell[k] = (g.lo[k] + g.hi[k]) / (2 * SLABS);
     }
     return g;
 }
 
-/* Where a slab is in a cell; what is beside the cell counts as its first or last slab. */
-static inline uint32_t slab_in(uint32_t slab, uint32_t cell)
+/* The first slab of the cell that a guest meets, and the last: as its middle is in the cell, it
+ * begins at most before it, and ends at most behind it. */
+static inline uint32_t first_in(uint32_t lo, uint32_t cell)
 {
-    const int32_t at = (int32_t)slab - (int32_t)(cell * SLABS);
-    return at < 0 ? 0 : at < SLABS ? (uint32_t)at : SLABS - 1;
+    return lo > cell * SLABS ? lo - cell * SLABS : 0;
+}
+
+static inline uint32_t last_in(uint32_t hi, uint32_t cell)
+{
+    return hi - cell * SLABS < SLABS ? hi - cell * SLABS : SLABS - 1;
 }
 
 static inline void meet(struct slabs *s, const struct guest *g)
 {
     for (int k = 0; k < 3; k++) {
-        const uint32_t first = slab_in(g->lo[k], g->cell[k]);
-        const uint32_t last = slab_in(g->hi[k], g->cell[k]);
+        const uint32_t first = first_in(g->lo[k], g->cell[k]), last = last_in(g->hi[k], g->cell[k]);
         s->met[k] |= UINT64_MAX << first & UINT64_MAX >> (SLABS - 1 - last);
     }
 }
@@ -209,7 +214,7 @@ static bool plan_pieces(struct binner *b, bool *crumbs)
         return build_no_memory(p->build);
     for (size_t i = 0; i < p->part.count; i++) {
         const uint32_t pieces = pieces_of(&b->slabs.at[i]), count = p->part.at[i].count;
-        const bool split = pieces > 1 && pieces <= count / FEWEST;
+        const bool split = pieces > 1 && pieces <= count + MOST_SPARE;
         b->first_of.at[i] = split ? (uint32_t)cut : ACCEL_NONE;
         cut += split ? pieces : 0;
         crumbled += pieces > 1 && pieces > count / PARTS_CRUMB ? count : 0;
@@ -226,14 +231,17 @@ static bool plan_pieces(struct binner *b, bool *crumbs)
 /* The number of a primitive's piece in its part: which runs of slabs it is in. */
 static uint32_t piece_of(const struct binner *b, uint32_t part, const accel_box *box)
 {
-    const struct slabs *s = &b->slabs.at[part];
     const struct parts *p = b->parts;
-    const struct guest g = guest_of(&p->sizes.frame, &b->grid[p->part.at[part].size_class], box);
+    const struct frame *f = &p->sizes.frame;
+    const struct grid *grid = &b->grid[p->part.at[part].size_class];
     uint32_t piece = 0;
     for (int k = 2; k >= 0; k--) {
-        const uint64_t begin = begins(s->met[k]);
-        const uint32_t slab = slab_in(g.lo[k], g.cell[k]);
-        piece = piece * bits_of(begin) + bits_of(begin & UINT64_MAX >> (SLABS - 1 - slab)) - 1;
+        const uint64_t begin = begins(b->slabs.at[part].met[k]);
+        if ((begin & (begin - 1)) == 0)
+            continue;
+        const uint32_t lo = slab_of(f, grid, box->lo[k], k), hi = slab_of(f, grid, box->hi[k], k);
+        const uint32_t first = first_in(lo, (lo + hi) / (2 * SLABS));
+        piece = piece * bits_of(begin) + bits_of(begin & UINT64_MAX >> (SLABS - 1 - first)) - 1;
     }
     return piece;
 }
@@ -292,10 +300,11 @@ bool parts_bin(struct parts *p, struct look *look)
     for (uint32_t c = 0; c < p->sizes.classes; c++) {
         const uint32_t o = look->octave[c];
         const double scale = p->sizes.frame.scale * (double)(SLABS << o);
-        b.grid[c] = (struct grid){o, (1u << o) - 1, scale, b.table_size};
+        b.grid[c] = (struct grid){o, scale, b.table_size};
         b.table_size += (size_t)1 << 3 * o;
     }
     const bool fine = make(&b, &look->loose);
+    p->looks += p->build->a->prims.bounded.count;
     if (b.table)
         memory_resize(m, b.table, b.table_size * sizeof *b.table, 0);
     cells_free(m, &b.cells);

@@ -184,6 +184,7 @@ static bool join_over(struct gatherer *g, double gap)
     for (size_t i = 0; fine && i < g->now.count; i++)
         g->group.at[i] = touching_root(&t, g->group.at[i]);
     fine = fine && regroup(g, t.groups.count);
+    g->parts->looks += t.looks;
     touching_free(memory_of(g), &t);
     return fine;
 }
@@ -195,6 +196,7 @@ static bool join_in_cells(struct gatherer *g, struct cells *cells, uint32_t octa
     g->group.count = 0;
     if (!array_extend(memory_of(g), &g->group, g->now.count))
         return build_no_memory(g->parts->build);
+    g->parts->looks += g->now.count;
     for (size_t i = 0; i < g->now.count; i++) {
         const uint64_t key = order_morton(&g->now.at[i].box) >> 3 * (CELLS_OCTAVES - octave);
         struct cell_slot *slot = cells_at(memory_of(g), cells, key);

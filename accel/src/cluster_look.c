@@ -18,7 +18,7 @@ enum { SHARE = 64, SMALLEST = 1024, LARGEST = 65536 };
 /* Primitives that share a cell with another, on average, at most: where they are loose, and where
  * they touch, as parts are then split (cluster_bins.c). Few primitives are told apart well: there
  * it is at most one for each PER_OTHER of the scene. */
-enum { LOOSE_OTHERS = 160, OTHERS = 320, PER_OTHER = 64 };
+enum { LOOSE_OTHERS = 160, OTHERS = 320, PER_OTHER = 128 };
 
 /* Where there are MANY, no more than this share may have a cell to themselves. */
 enum { MANY = 4096 };

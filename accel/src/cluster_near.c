@@ -138,6 +138,7 @@ bool parts_connect(struct parts *p, double connectivity)
 {
     struct connector k = {.parts = p, .connectivity = connectivity};
     const bool fine = measure(&k) && connect_units(&k) && make_parts(&k);
+    p->looks += k.touching.looks;
     array_free(memory_of(p), &k.order);
     touching_free(memory_of(p), &k.touching);
     return fine;

@@ -83,8 +83,10 @@ static bool gain_of(const struct parts *p, const struct cluster *a, const struct
 static void look(struct nester *n, uint32_t guest, uint32_t part, struct choice *best)
 {
     struct parts *p = n->parts;
+    p->looks++;
     for (int i = 0; guest != ACCEL_NONE && i < LOOKED_AT; i++, guest = n->guests.at[guest].next) {
         const uint32_t host = parts_root(p, n->guests.at[guest].part);
+        p->looks++;
         const struct cluster *a = &p->part.at[host], *b = &p->part.at[part];
         double gain;
         if (box_overlaps(&a->box, &b->box) && gain_of(p, a, b, &gain) &&

@@ -27,6 +27,7 @@ struct parts {
                                       part where primitives are loose */
     ARRAY_OF(struct cluster) part; /* by piece or component; `first` is its union-find parent */
     uint32_t crumb;                /* parts of fewer primitives are crumbs */
+    uint64_t looks;                /* at cells and what is in them, so far */
     double now;                    /* progress to report meanwhile */
 };
 

@@ -72,6 +72,7 @@ static uint32_t gather(struct touching *t, uint32_t *list, struct part *p, bool 
         again = false;
         for (uint32_t *at = list; *at != ACCEL_NONE;) {
             struct group *g = &t->groups.at[*at];
+            t->looks++;
             if (!all && !touches(g, p)) {
                 at = &g->next;
                 continue;
@@ -111,6 +112,7 @@ static bool enter_cell(struct memory *m, struct touching *t, uint64_t key, struc
     struct cell_slot *slot = cells_at(m, &t->cells, key);
     if (!slot)
         return false;
+    t->looks++;
     uint32_t list = slot->value;
     uint32_t mine = gather(t, &list, p, false);
     if (mine == ACCEL_NONE && length(t, list) >= CROWD)
@@ -153,9 +155,12 @@ uint32_t touching_enter(struct memory *m, struct touching *t, const accel_box *u
 /* Joins `group` with those of a cell's list that the part touches. */
 static void join_list(struct touching *t, uint32_t list, const struct part *p, uint32_t group)
 {
-    for (; list != ACCEL_NONE; list = t->groups.at[list].next)
+    t->looks++;
+    for (; list != ACCEL_NONE; list = t->groups.at[list].next) {
+        t->looks++;
         if (touches(&t->groups.at[list], p))
             unite(t, group, list);
+    }
 }
 
 void touching_join(struct touching *t, const accel_box *unit, struct touch_rule rule,
