@@ -15,6 +15,7 @@ extern const accel_command accel_command_diff;
 extern const accel_command accel_command_export;
 extern const accel_command accel_command_bench;
 extern const accel_command accel_command_lazy;
+extern const accel_command accel_command_clusters;
 extern const accel_command accel_command_photons;
 extern const accel_command accel_command_tables;
 extern const accel_command accel_command_report;

@@ -21,6 +21,7 @@ static const accel_command *const commands[] = {
     &accel_command_export,
     &accel_command_bench,
     &accel_command_lazy,
+    &accel_command_clusters,
     &accel_command_photons,
     &accel_command_tables,
     &accel_command_report,

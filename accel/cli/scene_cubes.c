@@ -1,14 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The paper's figure 3 and table 1: two clusters of 8 x 8 x 8 cubes, 12 triangles each.
+ * The paper's figure 3 and table 1: two clusters of 8 x 8 x 8 cubes, 12 triangles each; or of more.
  *
  * Cubes have edge 1 and whole coordinates, so that faces lie on the planes of a lattice. The second
  * cluster stands beside the first along x, `gap` cluster sides of empty space between them. Every
  * cube has its own eight vertices.
  */
 #include "scene_build.h"
-
-enum { PER_SIDE = 8 };
 
 static const accel_option options[] = {
     {.key = "gap",
@@ -21,6 +19,12 @@ static const accel_option options[] = {
      .min = 0.0,
      .max = 100.0,
      .standard = 1.0},
+    {.key = "side",
+     .meaning = "cubes along each side of a cluster",
+     .min = 1.0,
+     .max = 150.0,
+     .standard = 8.0,
+     .whole = true},
 };
 
 /* Bit k of a corner's number is its side along axis k; the triangles face outward. */
@@ -42,11 +46,11 @@ static void add_cube(accel_growing *mesh, const double at[3])
     }
 }
 
-static void add_cluster(accel_growing *mesh, double from_x, double pitch)
+static void add_cluster(accel_growing *mesh, int per_side, double from_x, double pitch)
 {
-    for (int x = 0; x < PER_SIDE; x++) {
-        for (int y = 0; y < PER_SIDE; y++) {
-            for (int z = 0; z < PER_SIDE; z++) {
+    for (int x = 0; x < per_side; x++) {
+        for (int y = 0; y < per_side; y++) {
+            for (int z = 0; z < per_side; z++) {
                 add_cube(mesh, (const double[3]){from_x + x * pitch, y * pitch, z * pitch});
             }
         }
@@ -56,10 +60,11 @@ static void add_cluster(accel_growing *mesh, double from_x, double pitch)
 static bool generate(accel_loaded *out, const double *values)
 {
     const double pitch = 1.0 + values[1];
-    const double side = (PER_SIDE - 1) * pitch + 1.0;
+    const int per_side = (int)values[2];
+    const double side = (per_side - 1) * pitch + 1.0;
     accel_growing mesh = {0};
-    add_cluster(&mesh, 0.0, pitch);
-    add_cluster(&mesh, side * (1.0 + values[0]), pitch);
+    add_cluster(&mesh, per_side, 0.0, pitch);
+    add_cluster(&mesh, per_side, side * (1.0 + values[0]), pitch);
     return accel_loaded_add(out, ACCEL_TRIANGLES, &mesh);
 }
 

@@ -1,0 +1,248 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * accel clusters: the time that hoo takes to find its clusters, from 10^4 primitives on, beside
+ * that of its whole build. Per primitive it should stay level as scenes grow.
+ */
+#include "commands.h"
+#include "machine.h"
+#include "output.h"
+#include "quantile.h"
+#include "structure.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { FLAG_MOST, FLAG_REPEATS, FLAG_CSV };
+
+static const accel_flag flags[] = {
+    [FLAG_MOST] = {"most", 'n', "N", "largest size of a family (default: 10000000)"},
+    [FLAG_REPEATS] = {"repeats", 0, "N", "turns for each scene (default: 3)"},
+    [FLAG_CSV] = {"csv", 0, "FILE", "write all figures there as well"},
+};
+
+enum { MOST_SCENES = 64, MOST_REPEATS = 51, LEAST = 10000 };
+
+/* A generator that grows: `option` is `per` * n^power for n primitives. */
+typedef struct family {
+    const char *name, *option;
+    double per, power;
+} family;
+
+static const family families[] = {
+    {"soup", "n", 1.0, 1.0},
+    {"spheres", "n", 1.0, 1.0},
+    {"cubes", "side", 0.34668063717531733, 1.0 / 3.0}, /* 24 triangles for each cube of a cluster */
+    {"teapots", "quads", 0.0405, 0.5},                 /* 49,370 triangles at 9 */
+    {"stadium", "quads", 0.1255, 0.5},                 /* 101,760 triangles at 40 */
+};
+
+enum { FAMILIES = sizeof families / sizeof families[0] };
+
+/* What was asked for. */
+typedef struct request {
+    const accel_command *command;
+    const char *scenes[MOST_SCENES];
+    size_t scene_count;
+    uint64_t most, repeats;
+    bool quiet;
+    bool headed; /* the head has been printed */
+    const char *csv_name;
+    FILE *csv;
+} request;
+
+/* One scene's builds. */
+typedef struct figures {
+    const char *scene;
+    double clusters[MOST_REPEATS], builds[MOST_REPEATS]; /* seconds; sorted in the end */
+    accel_info info;                                     /* of the last turn */
+} figures;
+
+/* ------------------------------------------------------------------------ output ---- */
+
+static void print_head(const request *r)
+{
+    char processor[256];
+    accel_machine_processor(processor, sizeof processor);
+    printf("%s\n%s\n"
+           "ms of processor time of one thread, median of %" PRIu64 " turns\n\n"
+           "%-28s %10s %8s %6s %12s %12s %10s %7s\n",
+           processor, accel_machine_build(), r->repeats, "scene", "primitives", "clusters", "sizes",
+           "clustering", "ns/primitive", "build", "share");
+}
+
+static void print_row(request *r, const figures *f)
+{
+    if (!r->headed) {
+        print_head(r);
+        r->headed = true;
+    }
+    const double clusters = accel_quantile(f->clusters, r->repeats, 0.5);
+    const double build = accel_quantile(f->builds, r->repeats, 0.5);
+    const double each = f->info.primitives > 0 ? clusters / (double)f->info.primitives : 0.0;
+    printf("%-28s %10" PRIu64 " %8" PRIu32 " %6" PRIu32 " %12.3f %12.1f %10.2f %5.1f %%\n",
+           f->scene, f->info.primitives, f->info.clusters, f->info.size_classes, 1e3 * clusters,
+           1e9 * each, 1e3 * build, 100.0 * clusters / build);
+    fflush(stdout);
+    if (r->csv != NULL) {
+        fprintf(r->csv, "\"%s\",%" PRIu64 ",%" PRIu32 ",%" PRIu32 ",%.6f,%.6f\n", f->scene,
+                f->info.primitives, f->info.clusters, f->info.size_classes, clusters, build);
+    }
+}
+
+/* --------------------------------------------------------------------------- run ---- */
+
+/* The part of a build that finds clusters. */
+static double cluster_part(const accel_info *info)
+{
+    for (uint32_t i = 0; i < info->phase_count; i++) {
+        if (strcmp(info->phases[i].name, "clusters") == 0) {
+            return info->phases[i].seconds / info->seconds;
+        }
+    }
+    return 0.0;
+}
+
+/* The library notes its phases by the clock on the wall; other programs stop all of them alike. */
+static bool take_turn(const request *r, const accel_loaded *loaded, figures *f, size_t turn,
+                      accel_progress *progress)
+{
+    const double start = accel_machine_seconds();
+    accel *a = accel_open_structure(loaded, "hoo", r->command, progress);
+    if (a == NULL) {
+        return false;
+    }
+    f->builds[turn] = accel_machine_seconds() - start;
+    accel_describe(a, &f->info);
+    f->clusters[turn] = f->builds[turn] * cluster_part(&f->info);
+    accel_free(a);
+    return true;
+}
+
+static int run_scene(request *r, const char *name)
+{
+    accel_progress progress = accel_progress_start(r->quiet);
+    accel_loaded loaded;
+    figures f = {.scene = name};
+    bool fine = accel_open_scene(&loaded, name, r->command, &progress);
+    if (!fine) {
+        return ACCEL_EXIT_BAD;
+    }
+    for (size_t turn = 0; fine && turn < r->repeats; turn++) {
+        fine = take_turn(r, &loaded, &f, turn, &progress);
+    }
+    accel_unload_scene(&loaded);
+    if (!fine) {
+        return ACCEL_EXIT_BAD;
+    }
+    accel_sort_values(f.clusters, r->repeats);
+    accel_sort_values(f.builds, r->repeats);
+    print_row(r, &f);
+    return ACCEL_EXIT_FINE;
+}
+
+/* Sizes 10^4, 10^5, ... of a family. */
+static int run_family(request *r, const family *g)
+{
+    int code = ACCEL_EXIT_FINE;
+    for (uint64_t n = LEAST; n <= r->most && code == ACCEL_EXIT_FINE; n *= 10) {
+        char name[64];
+        snprintf(name, sizeof name, "%s:%s=%.0f", g->name, g->option,
+                 round(g->per * pow((double)n, g->power)));
+        code = run_scene(r, name);
+    }
+    return code;
+}
+
+static int run_word(request *r, const char *word)
+{
+    for (size_t i = 0; i < FAMILIES; i++) {
+        if (strcmp(families[i].name, word) == 0) {
+            return run_family(r, &families[i]);
+        }
+    }
+    return run_scene(r, word);
+}
+
+static int run_words(request *r)
+{
+    int code = ACCEL_EXIT_FINE;
+    for (size_t i = 0; i < r->scene_count && code == ACCEL_EXIT_FINE; i++) {
+        code = run_word(r, r->scenes[i]);
+    }
+    return code;
+}
+
+/* The file of figures appears whole or not at all. */
+static int run_into_file(request *r)
+{
+    if (r->csv_name == NULL) {
+        return run_words(r);
+    }
+    accel_output output;
+    accel_error error;
+    if (!accel_output_open(&output, r->csv_name, &error)) {
+        return accel_complain(r->command, "%s", error.text);
+    }
+    r->csv = output.file;
+    fprintf(r->csv, "scene,primitives,clusters,size_classes,cluster_seconds,build_seconds\n");
+    const int code = run_words(r);
+    if (code != ACCEL_EXIT_FINE) {
+        accel_output_abandon(&output);
+    } else if (!accel_output_commit(&output, &error)) {
+        return accel_complain(r->command, "%s", error.text);
+    }
+    return code;
+}
+
+static bool take(accel_arguments *a, int flag, void *user)
+{
+    request *r = user;
+    switch (flag) {
+    case FLAG_MOST:
+        return accel_whole_argument(a, flag, LEAST, 30000000, &r->most);
+    case FLAG_REPEATS:
+        return accel_whole_argument(a, flag, 1, MOST_REPEATS, &r->repeats);
+    case FLAG_CSV:
+        r->csv_name = a->value;
+        return true;
+    default:
+        break;
+    }
+    if (r->scene_count == MOST_SCENES) {
+        accel_complain(r->command, "more than %d scenes; allowed are %d", MOST_SCENES, MOST_SCENES);
+        return false;
+    }
+    r->scenes[r->scene_count++] = a->value;
+    return true;
+}
+
+static int run(const accel_command *command, int argc, char **argv)
+{
+    accel_arguments arguments = accel_arguments_start(command, argc, argv);
+    request r = {.command = command, .most = 10000000, .repeats = 3};
+    if (!accel_take_arguments(&arguments, take, &r)) {
+        return arguments.exit_code;
+    }
+    r.quiet = arguments.quiet;
+    for (size_t i = 0; r.scene_count == 0 && i < FAMILIES; i++) {
+        r.scenes[i] = families[i].name;
+    }
+    r.scene_count = r.scene_count > 0 ? r.scene_count : FAMILIES;
+    return run_into_file(&r);
+}
+
+const accel_command accel_command_clusters = {
+    .name = "clusters",
+    .arguments = "[SCENE|FAMILY]... [--most N] [--csv FILE]",
+    .summary = "time to find clusters, from 10^4 to 10^7 primitives",
+    .details =
+        "Builds hoo and prints the time that its clusters take beside that of the whole build.\n"
+        "FAMILY is soup, spheres, cubes, teapots or stadium: scenes of about 10^4, 10^5, 10^6\n"
+        "and 10^7 primitives; without an argument, all of them. 10^7 take up to 8 GB.\n"
+        "The clusters' part of the processor time is their part of the time on the clock.",
+    .flags = flags,
+    .flag_count = sizeof flags / sizeof flags[0],
+    .run = run,
+};
