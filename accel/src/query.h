@@ -55,7 +55,7 @@ struct found {
 struct query {
     const struct primitives *prims;
     double org[3], dir[3]; /* the ray */
-    double inv[3];         /* 1 / dir, 0 where dir is 0 */
+    double inv[3];         /* 1 / dir, 0 where dir is 0: see query_inverse */
     double tmin, tmax;     /* the caller's, exclusive */
     uint32_t parallel;     /* bit k: dir[k] is 0 */
     uint32_t sign;         /* bit k: dir[k] is negative (and not 0) */
@@ -76,6 +76,14 @@ struct query {
     uint64_t outside;      /* raw hits before their box */
     uint32_t mailbox[QUERY_MAILBOXES]; /* ids tested lately */
 };
+
+/* 1 / dir of an axis that the ray is not parallel to. Where it is flushed to zero, infinity times it
+ * would cut more off a smaller box than off a larger one: NaN cuts nothing off either. */
+static inline double query_inverse(double dir)
+{
+    const double inverse = 1.0 / dir;
+    return fabs(inverse) > 0.0 ? inverse : (double)NAN;
+}
 
 /* An interval of t. Empty if a > z. */
 struct interval {
@@ -103,8 +111,8 @@ static inline struct interval query_interval(const struct query *q, double near,
 }
 
 /* The part of the ray's line inside a box: raw values of t. The comparisons are written so that a
- * NaN (0 * inf, where 1 / dir overflows or the direction is 0) leaves it as it is, which is
- * conservative. */
+ * NaN (0 * inf, where 1 / dir overflows or the direction is 0, or 1 / dir itself) leaves it as it
+ * is, which is conservative. */
 static inline struct interval query_slabs(const struct query *q, const accel_box *box)
 {
     const double *plane = (const double *)box;

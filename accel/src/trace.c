@@ -24,7 +24,7 @@ static void prepare_slabs(struct query *q)
 {
     for (int k = 0; k < 3; k++) {
         const bool parallel = q->dir[k] == 0.0, negative = q->dir[k] < 0.0;
-        q->inv[k] = parallel ? 0.0 : 1.0 / q->dir[k];
+        q->inv[k] = parallel ? 0.0 : query_inverse(q->dir[k]);
         q->parallel |= (uint32_t)parallel << k;
         q->sign |= (uint32_t)negative << k;
         q->near[k] = (uint8_t)(negative ? k + 3 : k);

@@ -4,6 +4,7 @@
  * numbers flushed to zero, each kind answers as linear does in that mode, and the environment is
  * left as it was. Structures built in one mode may be walked in another.
  */
+#include <float.h>
 #include <stdlib.h>
 
 #include "cmocka_all.h"
@@ -53,6 +54,23 @@ static accel *build_in(const struct mode *m, const struct test_scene *s, const c
     return a;
 }
 
+/* From as far as there are doubles, along directions whose inverses are flushed to zero. */
+static accel_ray huge_ray(const struct test_scene *s, struct dice *d)
+{
+    double org[3], dir[3];
+    const uint32_t axis = dice_below(d, 3);
+    const double side = dice_chance(d, 0.5) ? 1 : -1;
+    for (uint32_t k = 0; k < 3; k++) {
+        org[k] = s->box.lo[k] + dice_unit(d) * (s->box.hi[k] - s->box.lo[k]);
+        dir[k] = dice_chance(d, 0.5) ? 0.0 : dice_power(d, -3, 3);
+    }
+    org[axis] = side * (dice_chance(d, 0.7) ? DBL_MAX : dice_power(d, 1020, 1024));
+    dir[axis] = -side * dice_power(d, 1022, 1024);
+    accel_ray ray = accel_ray_from(org, dir);
+    ray.tmin = dice_chance(d, 0.5) ? -(double)INFINITY : -1.0;
+    return ray;
+}
+
 /* Boxes are padded when they are built, so linear must be built in the same mode. Default configs
  * are tried each time, the others take turns. */
 static void agree_in(const struct test_scene *s, const char *name, const struct mode *built,
@@ -62,7 +80,7 @@ static void agree_in(const struct test_scene *s, const char *name, const struct 
     struct dice d = dice_from(test_seed(), 11);
     accel *judge = build_in(built, s, "linear");
     for (uint32_t i = 0; i < RAYS; i++)
-        r.ray[i] = ray_families[i % 4 == 3].make(s, judge, &d, i);
+        r.ray[i] = i % 8 == 6 ? huge_ray(s, &d) : ray_families[i % 4 == 3].make(s, judge, &d, i);
     uint32_t first = 0;
     shoot(judge, walked, &r, true, &first);
     static size_t turn = 0;

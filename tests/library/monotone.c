@@ -71,16 +71,29 @@ static accel_box larger_box(struct dice *d, const accel_box *b)
     return l;
 }
 
+/* A ray may start and point anywhere that is finite. */
+static double largest(struct dice *d)
+{
+    const double x = dice_chance(d, 0.5) ? DBL_MAX : dice_power(d, 1018, 1024);
+    return dice_chance(d, 0.5) ? x : -x;
+}
+
+static double origin(struct dice *d, double lo, double hi)
+{
+    if (dice_chance(d, 0.1))
+        return largest(d);
+    return dice_chance(d, 0.4) ? extreme(d) : near_by(d, dice_chance(d, 0.5) ? lo : hi);
+}
+
 /* As accel_closest prepares it. */
 static void prepare(struct query *q, struct dice *d, const accel_box *b)
 {
     memset(q, 0, sizeof *q);
     for (int k = 0; k < 3; k++) {
-        q->org[k] = dice_chance(d, 0.4) ? extreme(d)
-                                        : near_by(d, dice_chance(d, 0.5) ? b->lo[k] : b->hi[k]);
-        q->dir[k] = dice_chance(d, 0.1) ? DBL_MAX : extreme(d);
+        q->org[k] = origin(d, b->lo[k], b->hi[k]);
+        q->dir[k] = dice_chance(d, 0.1) ? largest(d) : extreme(d);
         const bool negative = q->dir[k] < 0, parallel = q->dir[k] == 0;
-        q->inv[k] = parallel ? 0.0 : 1.0 / q->dir[k];
+        q->inv[k] = parallel ? 0.0 : query_inverse(q->dir[k]);
         q->parallel |= (uint32_t)parallel << k;
         q->sign |= (uint32_t)negative << k;
         q->near[k] = (uint8_t)(negative ? k + 3 : k);
