@@ -117,6 +117,12 @@ static const char *complaint(const accel_geometry *g)
     return "type is not one of accel_type";
 }
 
+/* So many primitives are too many: ids end below ACCEL_NONE, and no array has elements so large
+ * that its size would overflow with fewer, where a size has 32 bits. */
+enum { LARGEST_ELEMENT = 256 };
+static const uint64_t too_many =
+    SIZE_MAX / LARGEST_ELEMENT < ACCEL_NONE ? SIZE_MAX / LARGEST_ELEMENT : ACCEL_NONE;
+
 /* Checks what can be checked before anything is allocated. */
 static bool check(struct build *build, const accel_scene *scene)
 {
@@ -130,10 +136,10 @@ static bool check(struct build *build, const accel_scene *scene)
         }
         total += geometry_size(&scene->geometries[g]);
     }
-    if (total >= ACCEL_NONE) {
+    if (total >= too_many) {
         error_set(build->error, ACCEL_TOO_LARGE,
-                  "scene: %llu primitives, at most 4294967294 are allowed; nothing was built",
-                  (unsigned long long)total);
+                  "scene: %llu primitives, at most %llu are allowed; nothing was built",
+                  (unsigned long long)total, (unsigned long long)too_many - 1);
         return false;
     }
     return true;

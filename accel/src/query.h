@@ -77,8 +77,8 @@ struct query {
     uint32_t mailbox[QUERY_MAILBOXES]; /* ids tested lately */
 };
 
-/* 1 / dir of an axis that the ray is not parallel to. Where it is flushed to zero, infinity times it
- * would cut more off a smaller box than off a larger one: NaN cuts nothing off either. */
+/* 1 / dir of an axis that the ray is not parallel to. Where that is flushed to zero, infinity times
+ * it would cut more off a larger box than off a smaller one: NaN cuts nothing off either. */
 static inline double query_inverse(double dir)
 {
     const double inverse = 1.0 / dir;

@@ -75,7 +75,7 @@ typedef enum accel_status {
     ACCEL_BAD_ARGUMENT, /* a NULL, a bad stride, an index past its vertices */
     ACCEL_BAD_CONFIG,   /* the config string: unknown kind or key, repeat, range, trailing text */
     ACCEL_NO_MEMORY,    /* the allocator said no */
-    ACCEL_TOO_LARGE,    /* more than 2^32 - 2 primitives or references */
+    ACCEL_TOO_LARGE,    /* more than 2^32 - 2 primitives or references; 2^24 - 2 with 32 bits */
     ACCEL_CANCELLED,    /* the progress hook said stop */
     ACCEL_BROKEN        /* accel_validate found a broken invariant: a bug in the library */
 } accel_status;
