@@ -83,6 +83,9 @@ typedef struct accel_forms {
 
 accel_forms accel_report_forms(void);
 
+/* Is there a kind but linear and auto? Otherwise says so on the page, under the title. */
+bool accel_report_has_structures(accel_reporting *r, const char *id, const char *title);
+
 /* Opens NAME in the folder and writes the names of its columns. False: said. */
 FILE *accel_report_csv(accel_reporting *r, const char *name, const char *columns);
 

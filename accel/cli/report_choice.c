@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-static const char csv_name[] = "choice.csv";
+static const char csv_name[] = "choice.csv", title[] = "The cost of a choice";
 static const char columns[] =
     "scene,panel,kind,option,position,value,config,rays,wrong,share,shown,ns_per_ray,build_seconds,"
     "seconds_with_build,nodes,tests,bytes";
@@ -78,10 +78,10 @@ static void write_row(FILE *csv, const char *scene, const struct panel *p, const
 }
 
 static bool run_curve(accel_reporting *r, FILE *csv, const accel_ground *g, size_t scene,
-                      const struct panel *p, const char *kind, regret *worst)
+                      const struct panel *p, const char *kind, double each, regret *worst)
 {
     accel_run run;
-    if (!accel_run_config(&run, r, g, kind)) {
+    if (!accel_run_config(&run, r, g, kind, each)) {
         return false;
     }
     write_row(csv, scenes[scene], p, kind, 0, "auto", &run);
@@ -89,7 +89,7 @@ static bool run_curve(accel_reporting *r, FILE *csv, const accel_ground *g, size
     for (int i = 0; p->values[i] != NULL; i++) {
         char config[80];
         snprintf(config, sizeof config, "%s:%s=%s", kind, p->option, p->values[i]);
-        if (!accel_run_config(&run, r, g, config)) {
+        if (!accel_run_config(&run, r, g, config, each)) {
             return false;
         }
         write_row(csv, scenes[scene], p, kind, i + 1, p->values[i], &run);
@@ -102,29 +102,31 @@ static bool run_curve(accel_reporting *r, FILE *csv, const accel_ground *g, size
 }
 
 /* The kind auto, for a line across all panels of a scene. */
-static bool run_auto(accel_reporting *r, FILE *csv, const accel_ground *g, size_t scene)
+static bool run_auto(accel_reporting *r, FILE *csv, const accel_ground *g, size_t scene,
+                     double each)
 {
     static const struct panel all = {.title = "all", .option = "none"};
     accel_run run;
-    if (!accel_run_config(&run, r, g, "auto")) {
+    if (!accel_run_config(&run, r, g, "auto", each)) {
         return false;
     }
     write_row(csv, scenes[scene], &all, "auto", 0, "auto", &run);
     return true;
 }
 
-static bool run_scene(accel_reporting *r, FILE *csv, size_t scene, size_t rays, regret *worst)
+static bool run_scene(accel_reporting *r, FILE *csv, size_t scene, size_t rays, double each,
+                      regret *worst)
 {
     accel_ground g;
     if (!accel_ground_make(&g, r, scenes[scene], ACCEL_GROUND_BOUNCES, rays, 0.2)) {
         return false;
     }
-    bool fine = run_auto(r, csv, &g, scene);
+    bool fine = run_auto(r, csv, &g, scene, each);
     for (size_t p = 0; fine && p < PANELS; p++) {
         accel_progress_show(&r->progress, panels[p].title, (double)p / PANELS);
         for (size_t k = 0; fine && k < MOST_CURVES && panels[p].kinds[k] != NULL; k++) {
             fine = !has_kind(panels[p].kinds[k]) ||
-                   run_curve(r, csv, &g, scene, &panels[p], panels[p].kinds[k], worst);
+                   run_curve(r, csv, &g, scene, &panels[p], panels[p].kinds[k], each, worst);
         }
     }
     accel_ground_free(&g);
@@ -229,13 +231,13 @@ static bool draw(accel_reporting *r)
 static bool write_page(accel_reporting *r, size_t rays, const regret *worst)
 {
     char caption[900];
-    accel_page_title(r, "choice", "The cost of a choice");
+    accel_page_title(r, "choice", title);
     accel_page_text(
         r,
         "Structures have options, and papers tune them. No option has to be given here: "
         "at its left each curve begins with what the structure chooses by itself "
         "(auto); the dashed line is the kind <code>auto</code>, which chooses the "
-        "structure too. Rays: %zu diffuse bounces, as in a path tracer.",
+        "structure too. Rays: up to %zu diffuse bounces, as in a path tracer.",
         rays);
     snprintf(caption, sizeof caption,
              "Options against time per ray (%s above, %s in the middle) and against the share of "
@@ -248,6 +250,9 @@ static bool write_page(accel_reporting *r, size_t rays, const regret *worst)
 
 bool accel_report_choice(accel_reporting *r, double seconds)
 {
+    if (!accel_report_has_structures(r, "choice", title)) {
+        return true;
+    }
     FILE *csv = accel_report_csv(r, csv_name, columns);
     if (csv == NULL) {
         return false;
@@ -259,7 +264,7 @@ bool accel_report_choice(accel_reporting *r, double seconds)
     const size_t rays = fits < 1000.0 ? 1000 : fits > 100000.0 ? 100000 : (size_t)fits;
     regret worst = {.worst = 0.0};
     for (size_t s = 0; s < SCENES; s++) {
-        if (!run_scene(r, csv, s, rays, &worst)) {
+        if (!run_scene(r, csv, s, rays, fmax(each, 0.0), &worst)) {
             fclose(csv);
             return false;
         }

@@ -112,7 +112,7 @@ static void compare_peers(const examined *x)
                                     (double)(x->exam.decided_peer + 1));
         }
     }
-    if (x->exam.peers && theirs > 0.0) {
+    if (x->exam.peers && isfinite(theirs) && theirs > 0.0) {
         x->all->ratio = x->all->scenes == 0 ? ours / theirs : x->all->ratio;
         x->all->lower += share < 1e-3;
         x->all->scenes++;
@@ -285,15 +285,21 @@ static bool write_page(accel_reporting *r, const comparison *all)
         "linear search. Embree, by Intel, works in single precision, eight triangles at a time: "
         "dark crosses compare it with the scene as the user gave it in double, light ones with "
         "the scene rounded to single precision, which is all that it was given.");
-    char caption[1000];
+    char caption[1000], peer[400] = "no peer is built in to compare with.";
+    if (all->scenes > 0) {
+        snprintf(
+            peer, sizeof peer,
+            "time. On the harmless first panel the fastest of ours takes %.1f times as long as "
+            "the fastest of Embree's four modes, and on %zu of the %zu scenes one of those has "
+            "fewer than one wrong answer in a thousand. Where Embree is far left at a high "
+            "share it sees little of the scene.",
+            all->ratio, all->lower, all->scenes);
+    }
     snprintf(caption, sizeof caption,
              "Time per ray (right is slower) against the share of wrong answers (down is better). "
              "Where none of N answers was wrong, the point stands at 1/N with an arrow down: read "
-             "“&lt; 1/N”. <b>Where we lose:</b> time. On the harmless first panel the "
-             "fastest of ours takes %.1f times as long as the fastest of Embree's four modes, and "
-             "on %zu of the %zu scenes one of those has fewer than one wrong answer in a thousand. "
-             "Where Embree is far left at a high share it sees little of the scene.",
-             all->ratio, all->lower, all->scenes);
+             "“&lt; 1/N”. <b>Where we lose:</b> %s",
+             peer);
     return accel_page_plot(r, "exact", csv_name, caption) &&
            accel_page_plot(r, "exact-build", csv_name,
                            "The same with the build: seconds for the build and a million rays. "

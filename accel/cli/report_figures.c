@@ -41,6 +41,20 @@ accel_forms accel_report_forms(void)
     return f;
 }
 
+bool accel_report_has_structures(accel_reporting *r, const char *id, const char *title)
+{
+    size_t kinds;
+    const accel_kind_info *const *kind = accel_kinds(&kinds);
+    for (size_t k = 0; k < kinds; k++) {
+        if (strcmp(kind[k]->name, "linear") != 0 && strcmp(kind[k]->name, "auto") != 0) {
+            return true;
+        }
+    }
+    accel_page_title(r, id, title);
+    accel_page_text(r, "This build has no structure but linear search.");
+    return false;
+}
+
 FILE *accel_report_csv(accel_reporting *r, const char *name, const char *columns)
 {
     FILE *csv = accel_folder_file(&r->folder, name, "w");

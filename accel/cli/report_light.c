@@ -225,7 +225,7 @@ static bool build_all(study *y)
     size_t kinds;
     const accel_kind_info *const *kind = accel_kinds(&kinds);
     for (size_t k = 0; k < kinds && y->count < MOST_KINDS; k++) {
-        if (kinds > 2 && strcmp(kind[k]->name, "linear") == 0) {
+        if (strcmp(kind[k]->name, "linear") == 0) {
             continue;
         }
         accel *a = accel_report_build(y->r, &y->s.loaded.scene, kind[k]->name);
@@ -289,6 +289,9 @@ static bool run_study(accel_reporting *r, FILE *csv, bool plates, double seconds
 
 bool accel_report_light(accel_reporting *r, double seconds)
 {
+    if (!accel_report_has_structures(r, "light", ACCEL_LIGHT_TITLE)) {
+        return true;
+    }
     FILE *csv = accel_report_csv(r, ACCEL_LIGHT_CSV, columns);
     if (csv == NULL) {
         return false;

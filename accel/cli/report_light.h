@@ -56,6 +56,7 @@ typedef struct accel_light_row {
 /* Draws the plots and writes the page; `slowest` is the caption of the last plot. */
 bool accel_light_page(accel_reporting *r, const char *slowest);
 
-#define ACCEL_LIGHT_CSV "light.csv"
+#define ACCEL_LIGHT_CSV   "light.csv"
+#define ACCEL_LIGHT_TITLE "Illumination: error of photons, against all of their time"
 
 #endif

@@ -111,7 +111,7 @@ static size_t timed_kinds(const char **names, size_t most)
     size_t kinds, count = 0;
     const accel_kind_info *const *kind = accel_kinds(&kinds);
     for (size_t k = 0; k < kinds && count < most; k++) {
-        if (kinds == 1 || strcmp(kind[k]->name, "linear") != 0) {
+        if (strcmp(kind[k]->name, "linear") != 0) {
             names[count++] = kind[k]->name;
         }
     }
@@ -213,7 +213,7 @@ bool accel_light_page(accel_reporting *r, const char *slowest)
     if (!draw(r, "light", true) || !draw(r, "light-radius", false) || !draw_parts(r)) {
         return false;
     }
-    accel_page_title(r, "light", "Illumination: error of photons, against all of their time");
+    accel_page_title(r, "light", ACCEL_LIGHT_TITLE);
     accel_page_text(
         r,
         "Photons shot from a light are traced through the scene; the light that falls on a point "

@@ -159,7 +159,24 @@ static double median_ns(void (*trace)(const void *, const accel_ray_set *), cons
     return ns[TURNS / 2];
 }
 
-bool accel_run_config(accel_run *run, accel_reporting *r, const accel_ground *g, const char *config)
+/* Judges the first rays and counts, until the time is over. */
+static void judge_run(accel_run *run, const accel_ground *g, const accel *a, double seconds)
+{
+    accel_query query = {.user = NULL};
+    const double end = accel_seconds() + seconds;
+    size_t i = 0;
+    for (; i < g->set.count && (i < ACCEL_LEAST_RAYS || accel_seconds() < end); i++) {
+        accel_hit hit;
+        const bool found = accel_closest(a, &g->set.rays[i], &hit, &query);
+        run->wrong += !same(&g->set, i, found, &hit);
+    }
+    run->rays = i;
+    run->nodes = (double)query.nodes / (double)(i > 0 ? i : 1);
+    run->tests = (double)query.tests / (double)(i > 0 ? i : 1);
+}
+
+bool accel_run_config(accel_run *run, accel_reporting *r, const accel_ground *g, const char *config,
+                      double seconds)
 {
     accel *a = accel_report_build(r, &g->loaded.scene, config);
     if (a == NULL) {
@@ -167,17 +184,12 @@ bool accel_run_config(accel_run *run, accel_reporting *r, const accel_ground *g,
     }
     accel_info info;
     accel_describe(a, &info);
-    *run = (accel_run){.rays = g->set.count, .build = r->built, .bytes = (double)info.bytes};
+    *run = (accel_run){.build = r->built, .bytes = (double)info.bytes};
     snprintf(run->name, sizeof run->name, "%.79s", config);
-    accel_query query = {.user = NULL};
-    for (size_t i = 0; i < g->set.count; i++) {
-        accel_hit hit;
-        const bool found = accel_closest(a, &g->set.rays[i], &hit, &query);
-        run->wrong += !same(&g->set, i, found, &hit);
-    }
-    run->nodes = (double)query.nodes / (double)(run->rays + 1);
-    run->tests = (double)query.tests / (double)(run->rays + 1);
-    run->ns = median_ns(trace_ours, a, &g->set);
+    judge_run(run, g, a, seconds / (TURNS + 1));
+    accel_ray_set set = g->set;
+    set.count = run->rays;
+    run->ns = median_ns(trace_ours, a, &set);
     r->judged += run->rays;
     r->wrong += run->wrong;
     accel_free(a);

@@ -39,9 +39,12 @@ bool accel_ground_make(accel_ground *g, accel_reporting *r, const char *scene,
 
 void accel_ground_free(accel_ground *g);
 
-/* Builds, judges and times CONFIG. False: said. */
-bool accel_run_config(accel_run *run, accel_reporting *r, const accel_ground *g,
-                      const char *config);
+/* Builds, judges and times CONFIG, on as many of the rays as fit into the time, at least
+ * ACCEL_LEAST_RAYS: a bad choice may be a thousand times slower. False: said. */
+bool accel_run_config(accel_run *run, accel_reporting *r, const accel_ground *g, const char *config,
+                      double seconds);
+
+enum { ACCEL_LEAST_RAYS = 200 };
 
 /* The same for all peers; returns how many. */
 size_t accel_run_peers(accel_run runs[ACCEL_MOST_PEERS], const accel_ground *g);

@@ -8,6 +8,7 @@
 #include <string.h>
 
 static const char csv_name[] = "size.csv", gap_name[] = "gap.csv";
+static const char title[] = "Work against size, against gaps; memory";
 static const char columns[] = "scene,primitives,contender,peer,rays,wrong,ns_per_ray,nodes,tests,"
                               "build_seconds,seconds_with_build,bytes_per_primitive";
 static const char gap_columns[] =
@@ -80,7 +81,7 @@ static bool run_all(accel_reporting *r, FILE *csv, const char *scene, double x, 
             continue;
         }
         accel_progress_show(&r->progress, scene, (double)i / (double)forms.count);
-        fine = accel_run_config(&run, r, &g, forms.at[i]);
+        fine = accel_run_config(&run, r, &g, forms.at[i], 0.02 * seconds);
         if (fine) {
             write_row(csv, scene, primitives, x < 0.0 ? (double)primitives : x, &run);
             sum_up(s, &run);
@@ -267,7 +268,7 @@ static bool write_page(accel_reporting *r, const summary *size, const summary *g
              "nodes are not less time by themselves: compare the first panel with the last. At the "
              "largest gap,%s",
              peer);
-    accel_page_title(r, "size", "Work against size, against gaps; memory");
+    accel_page_title(r, "size", title);
     accel_page_text(
         r,
         "The same scene, nine teapots and a floor, cut into more and more triangles; "
@@ -297,6 +298,9 @@ static bool write_figures(accel_reporting *r, const char *name, const char *name
 
 bool accel_report_size(accel_reporting *r, double seconds)
 {
+    if (!accel_report_has_structures(r, "size", title)) {
+        return true;
+    }
     summary gap, size;
     return write_figures(r, gap_name, gap_columns, run_gaps, 0.2 * seconds, &gap) &&
            write_figures(r, csv_name, columns, run_sizes, 0.8 * seconds, &size) && draw_size(r) &&

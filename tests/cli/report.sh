@@ -52,8 +52,12 @@ for test in G2 G3 G4 G5 G6 G7 G8 G9 G10 G11 G12 G13 G14 G15 G16 R1 R2 R3 R4 R5 R
     grep -q "<th colspan=\"8\">$test: " page/index.html || fail "$test is not in the table"
 done
 
+if [ "$kind" = linear ]; then
+    grep -q "no structure but linear search" page/index.html || fail "the page does not say so"
+    finish
+    exit
+fi
 timed=$(grep -vcx linear <<<"$kinds")
-[ "$timed" -gt 1 ] || timed=$(wc -l <<<"$kinds") # without another kind linear is timed as well
 has light.csv "scene,estimator,radius,photons,seeds,structure,build_seconds,photon_seconds,estimate_seconds,seconds,rmse,bias,bias_seen,floor,hash" "$((2 * 2 * 4 * timed))"
 for scene in plates teapots; do
     for photons in 1000 10000; do
@@ -99,6 +103,12 @@ done
 for file in page/*.csv; do
     grep -q "\"$(basename "$file")\"" page/index.html || fail "$file is not on the page"
 done
+
+# Ended by a signal it leaves nothing.
+got=0
+timeout -s TERM 2 "$accel" report -o ended --minutes 5 --quiet >out 2>err || got=$?
+[ "$got" = 124 ] || fail "ended by a signal it exits with $got: $(cat err)"
+[ "$(find . -maxdepth 1 -name 'ended*' | wc -l)" = 0 ] || fail "ended by a signal it leaves a folder"
 
 # A second report takes the place of the first.
 : >page/old
