@@ -5,8 +5,9 @@
  *
  * The crumbs of a size class are joined where the gap between their boxes is at most d, then the
  * clusters that this gives where theirs is at most 2d, and so on, until one is left; of these
- * partitions the one with the lowest predicted cost is taken. Those with more clusters than one for
- * each PARTS_CRUMB primitives are out of the question, unless there are but a few crumbs in all.
+ * partitions the one with the lowest predicted cost is taken. Those with more clusters than the
+ * square root of the primitives are out of the question, unless there are but a few crumbs in all:
+ * a tree over more clusters than there are primitives in each does what octrees do better.
  * Doubling finds the distances at which the class falls apart, to a factor of two. Each gap is one
  * pass, linear in the clusters of the one before; there are at most CELLS_OCTAVES of them, and
  * after the first few hardly anything is left to look at.
@@ -244,7 +245,7 @@ static void keep(struct gatherer *g)
 /* Keeps the partition if it is legal, and cheaper than the best so far. */
 static void judge(struct gatherer *g)
 {
-    const double allowed = fmax(PARTS_CRUMB, (double)g->primitives / PARTS_CRUMB);
+    const double allowed = fmax(PARTS_CRUMB, sqrt((double)g->primitives));
     if ((double)g->now.count > allowed)
         return;
     const double now = cost(g);
