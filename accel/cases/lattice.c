@@ -87,6 +87,19 @@ accel_ray lattice_line(const struct test_scene *s, struct dice *d, struct line *
     return accel_ray_from(org, dir);
 }
 
+accel_ray lattice_line_on(const struct test_scene *s, struct dice *d, struct line *l)
+{
+    accel_ray ray = lattice_line(s, d, l);
+    const struct part *p = &s->part[dice_below(d, s->count)];
+    const double *t = p->data + 9 * (size_t)dice_below(d, p->count);
+    const uint32_t i = dice_below(d, 3), j = dice_chance(d, 0.5) ? i : (i + 1) % 3;
+    for (uint32_t k = 0; k < 3; k++) {
+        l->org[k] = (int64_t)(t[3 * i + k] + t[3 * j + k]);
+        ray.org[k] = (double)l->org[k] / 2;
+    }
+    return ray;
+}
+
 struct line lattice_line_of(const accel_ray *ray)
 {
     struct line l;

@@ -24,6 +24,9 @@ struct crossing {
 /* A random line through the box of a scene or past it, as integers and as a ray. */
 accel_ray lattice_line(const struct test_scene *s, struct dice *d, struct line *l);
 
+/* The same from a corner of a triangle or from the middle of one of its edges. */
+accel_ray lattice_line_on(const struct test_scene *s, struct dice *d, struct line *l);
+
 /* A ray from half integers along integers, as integers. */
 struct line lattice_line_of(const accel_ray *ray);
 

@@ -10,10 +10,10 @@ typedef long double wide;
 #error "accel needs a floating-point type of 106 bits or more: __float128 or long double"
 #endif
 
-/* Inside this range neither the edge functions' sum nor t's numerator has lost bits at the ends of
- * double's range: with |t| below 2^400 no product over- or underflows. */
-#define SAFE_MIN 0x1p-600
-#define SAFE_MAX 0x1p600
+/* Above SAFE_MIN the edge functions' sum and t's numerator have lost less than 2^-170 of themselves
+ * to products that underflow; overflow makes them infinite or NaN. */
+#define SAFE_MIN 0x1p-900
+#define SAFE_MAX 0x1p900
 
 /* Lengths below TINY times UP are finite, and no products of them underflow that did not have to.
  */

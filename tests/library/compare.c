@@ -272,6 +272,28 @@ accel *must_build(const struct test_scene *s, const char *config)
     return a;
 }
 
+struct forms build_forms(const struct test_scene *s)
+{
+    struct forms f = {NULL, NULL, 0};
+    const size_t configs = tested_configs(&f.of);
+    f.a = must_resize(NULL, configs * sizeof(accel *));
+    for (size_t i = 0; i < configs; i++) {
+        if (!f.of[i].form)
+            continue;
+        f.of[f.count] = f.of[i];
+        f.a[f.count++] = must_build(s, f.of[i].config);
+    }
+    return f;
+}
+
+void free_forms(struct forms *f)
+{
+    for (size_t i = 0; i < f->count; i++)
+        accel_free(f->a[i]);
+    free(f->a);
+    free(f->of);
+}
+
 uint64_t test_seed(void)
 {
     const char *text = getenv("ACCEL_TEST_SEED");

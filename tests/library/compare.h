@@ -67,6 +67,15 @@ void print_answer(FILE *f, const char *who, const struct answer *a);
 /* Builds, or ends the test with the error's text. */
 accel *must_build(const struct test_scene *s, const char *config);
 
+/* Every kind and form over one scene. */
+struct forms {
+    accel **a;
+    struct tested *of; /* what they are */
+    size_t count;
+};
+struct forms build_forms(const struct test_scene *s);
+void free_forms(struct forms *f);
+
 /* The seed of this run: the environment's ACCEL_TEST_SEED, or a fixed one. */
 uint64_t test_seed(void);
 

@@ -27,7 +27,7 @@ static const struct golden table[] = {
     {"slivers", "mix", 0x9b6fb6434ba05545},
     {"degenerate", "mix", 0x1544c855467933bb},
     {"nested-spheres", "mix", 0x560956b0772ea36f},
-    {"series", "mix", 0xea43e13d8f5e37f6},
+    {"series", "mix", 0x5e35339dc0030fe3},
     {"lattice", "lattice-lines", 0xf261267de932d592},
     {"ball-mesh", "origin-on", 0x9d395e6e38468244},
     {"split-1024", "mix", 0x051d6e2ce67ef2ac},

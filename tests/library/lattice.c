@@ -37,47 +37,49 @@ static void check_ray(const accel *a, const char *kind, const accel_ray *ray, st
              (long long)e->list[0].under, hit ? h.geom : 0, hit ? h.prim : 0, hit ? h.t : 0);
 }
 
-/* Doubled, the triangles of these scenes have integer corners. */
-static void try_scene(const char *name, double scale, uint64_t count)
+typedef accel_ray make_line(const struct test_scene *s, struct dice *d, struct line *l);
+
+static void try_scene(const char *name, make_line *make, uint64_t count)
 {
     static struct expected e;
-    const double nowhere[3] = {0, 0, 0};
     struct test_scene s;
-    struct dice d = dice_from(test_seed(), 1);
-    const struct scene_maker *maker = scene_maker_find(name);
-    scene_open(&s);
-    maker->make(&s, &d, maker->param);
-    scene_move(&s, scale, nowhere);
-    scene_close(&s);
-    size_t kinds;
+    scene_make(&s, scene_maker_find(name), test_seed());
+    struct forms all = build_forms(&s);
+    struct dice d = dice_from(test_seed(), 31);
     uint64_t hits = 0;
-    const accel_kind_info *const *kind = accel_kinds(&kinds);
-    for (size_t k = 0; k < kinds; k++) {
-        accel *a = must_build(&s, kind[k]->name);
-        struct dice rays = dice_from(test_seed(), 31);
-        for (uint64_t i = 0; i < count; i++) {
-            struct line l;
-            accel_ray ray = lattice_line(&s, &rays, &l);
-            const bool backwards = dice_chance(&rays, 0.3);
-            ray.tmin = backwards ? -(double)INFINITY : 0.0;
-            e.count = lattice_crossings(&s, &l, backwards, e.list, ALL_HITS);
-            check_ray(a, kind[k]->name, &ray, &e);
-            hits += e.count;
-        }
-        accel_free(a);
+    for (uint64_t i = 0; i < count; i++) {
+        struct line l;
+        accel_ray ray = make(&s, &d, &l);
+        const bool backwards = dice_chance(&d, 0.3);
+        ray.tmin = backwards ? -(double)INFINITY : 0.0;
+        e.count = lattice_crossings(&s, &l, backwards, e.list, ALL_HITS);
+        for (size_t k = 0; k < all.count; k++)
+            check_ray(all.a[k], all.of[k].config, &ray, &e);
+        hits += e.count;
     }
+    free_forms(&all);
     scene_free(&s);
-    assert_true(hits > kinds * count / 2);
+    assert_true(hits > count / 2);
 }
 
-static void test_lattice(void **state)
+static void test_lines(void **state)
 {
     (void)state;
-    try_scene("lattice", 1, scaled_count(4000));
+    try_scene("lattice", lattice_line, scaled_count(20000));
+}
+
+/* From corners and edges, hence from faces, from the planes of cells and from inside of leaves. */
+static void test_origins(void **state)
+{
+    (void)state;
+    try_scene("lattice", lattice_line_on, scaled_count(20000));
 }
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_lattice)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_lines),
+        cmocka_unit_test(test_origins),
+    };
     return cmocka_run_group_tests_name("lattice", tests, NULL, NULL);
 }

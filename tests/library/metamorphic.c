@@ -10,7 +10,7 @@
 #include "cmocka_all.h"
 #include "compare.h"
 
-enum { RAYS = 300, KINDS = 32 };
+enum { RAYS = 300 };
 
 /* All hits of one ray. */
 struct list {
@@ -45,6 +45,8 @@ struct change {
     bool shuffle;   /* the primitives come in another order */
     bool twice;     /* the scene comes twice */
     bool more;      /* other primitives are added behind */
+    uint64_t round; /* another order, another number */
+    uint64_t rays;  /* 0 stands for RAYS */
 };
 
 static void move_point(const struct change *c, const double *from, double *to)
@@ -82,16 +84,16 @@ static void make_order(uint32_t *order, uint32_t count, bool shuffle, struct dic
 /* A changed scene; maps its ids back to those of the original. */
 struct changed {
     struct test_scene scene;
-    uint32_t *order[4]; /* by geometry of the original */
+    uint32_t *order[8]; /* by geometry of the original */
     uint32_t parts;     /* geometries of the original */
 };
 
 static void change_scene(struct changed *to, const struct test_scene *from, const struct change *c)
 {
-    struct dice d = dice_from(test_seed(), 51);
+    struct dice d = dice_from(test_seed() + c->round, 51);
     scene_open(&to->scene);
     to->parts = from->count;
-    assert_true(from->count <= 4);
+    assert_true(from->count <= 8);
     for (uint32_t copy = 0; copy <= (uint32_t)c->twice; copy++) {
         for (uint32_t g = 0; g < from->count; g++) {
             const struct part *p = &from->part[g];
@@ -201,8 +203,9 @@ static void try_kind(const char *kind, const char *name, const struct test_scene
 {
     accel *a = must_build(s, kind), *b = must_build(&to->scene, kind);
     struct dice d = dice_from(test_seed(), 52);
-    uint32_t hits = 0;
-    for (uint64_t i = 0; i < RAYS; i++) {
+    const uint64_t rays = scaled_count(c->rays ? c->rays : RAYS);
+    uint64_t hits = 0;
+    for (uint64_t i = 0; i < rays; i++) {
         struct list expected, found;
         const accel_ray ray = ray_families->make(s, a, &d, i);
         const accel_ray moved = change_ray(c, &ray);
@@ -215,7 +218,7 @@ static void try_kind(const char *kind, const char *name, const struct test_scene
             complain(kind, name, c, &ray, &expected, &found);
         hits += expected.count;
     }
-    assert_true(hits > RAYS / 4);
+    assert_true(hits > rays / 4);
     accel_free(a);
     accel_free(b);
 }
@@ -224,12 +227,14 @@ static void try_change(const char *name, const struct change *c)
 {
     struct test_scene s;
     struct changed to;
-    size_t kinds;
-    const accel_kind_info *const *kind = accel_kinds(&kinds);
+    struct tested *list;
+    const size_t configs = tested_configs(&list);
     scene_make(&s, scene_maker_find(name), test_seed());
     change_scene(&to, &s, c);
-    for (size_t k = 0; k < kinds; k++)
-        try_kind(kind[k]->name, name, &s, &to, c);
+    for (size_t k = 0; k < configs; k++)
+        if (list[k].form)
+            try_kind(list[k].config, name, &s, &to, c);
+    free(list);
     free_changed(&to);
     scene_free(&s);
 }
@@ -237,7 +242,7 @@ static void try_change(const char *name, const struct change *c)
 static void test_scales(void **state)
 {
     (void)state;
-    static const int power[] = {1, -1, 10, -10, 40, -40, 100, -100};
+    static const int power[] = {1, -1, 10, -10, 40, -40, 100, -100, 200, -200};
     for (size_t i = 0; i < sizeof power / sizeof *power; i++) {
         char name[60];
         snprintf(name, sizeof name, "scaled by 2^%d", power[i]);
@@ -251,8 +256,13 @@ static void test_scales(void **state)
 static void test_lengths(void **state)
 {
     (void)state;
-    try_change("scale-1", &(struct change){.name = "directions times 2^500", .lengthen = 500});
-    try_change("scale-1", &(struct change){.name = "directions times 2^-500", .lengthen = -500});
+    static const int power[] = {500, -500};
+    for (size_t i = 0; i < 2; i++) {
+        char name[60];
+        snprintf(name, sizeof name, "directions times 2^%d", power[i]);
+        try_change("scale-1", &(struct change){.name = name, .lengthen = power[i], .rays = 2500});
+        try_change("sizes", &(struct change){.name = name, .lengthen = power[i], .rays = 2500});
+    }
 }
 
 /* Far beyond where the square of a length is a double. */
@@ -299,6 +309,20 @@ static void test_orders(void **state)
     }
 }
 
+/* The same ids win, whatever the order of building. */
+static void test_ties(void **state)
+{
+    (void)state;
+    static const char *const scenes[] = {"stack", "twins"};
+    for (uint64_t round = 0; round < 10; round++) {
+        char name[60];
+        snprintf(name, sizeof name, "shuffle number %d", (int)round);
+        for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++)
+            try_change(scenes[i], &(struct change){
+                                      .name = name, .shuffle = true, .round = round, .rays = 250});
+    }
+}
+
 /* ------------------------------------------------------------------- cut rays ---- */
 
 /* Each next hit by a query of its own, from the last t on, gives the list; ties come with it. */
@@ -336,6 +360,52 @@ static void check_split(const accel *a, const char *kind, const accel_ray *ray,
                  second.count, all->count);
 }
 
+/* The interval is open: at its first hit's t a ray ends before the hit, or begins behind it; one
+ * step further or nearer it finds it. */
+static void check_ends(const accel *a, const char *config, const accel_ray *ray, bool *hit)
+{
+    const double inf = (double)INFINITY;
+    accel_hit first, h;
+    *hit = accel_closest(a, ray, &first, NULL);
+    if (!*hit)
+        return;
+    accel_ray until = *ray, past = *ray, from = *ray, behind = *ray;
+    until.tmax = behind.tmin = first.t;
+    past.tmax = nextafter(first.t, inf);
+    from.tmin = nextafter(first.t, -inf);
+    if (accel_closest(a, &until, &h, NULL) || accel_any(a, &until, NULL) ||
+        !accel_closest(a, &past, &h, NULL) || memcmp(&h, &first, sizeof h) != 0 ||
+        !accel_any(a, &past, NULL) || !accel_closest(a, &from, &h, NULL) ||
+        memcmp(&h, &first, sizeof h) != 0 || !accel_any(a, &from, NULL) ||
+        (accel_closest(a, &behind, &h, NULL) && !(h.t > first.t)))
+        fail_msg("%s: the interval's ends: ray %a %a %a  %a %a %a, t = %a", config, ray->org[0],
+                 ray->org[1], ray->org[2], ray->dir[0], ray->dir[1], ray->dir[2], first.t);
+}
+
+static void test_ends(void **state)
+{
+    (void)state;
+    static const char *const scenes[] = {"soup", "twins", "lattice", "slivers"};
+    for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
+        struct test_scene s;
+        scene_make(&s, scene_maker_find(scenes[i]), test_seed());
+        struct forms all = build_forms(&s);
+        struct dice d = dice_from(test_seed(), 54);
+        uint64_t hits = 0;
+        const uint64_t count = scaled_count(5000);
+        for (uint64_t r = 0; r < count; r++) {
+            const accel_ray ray = ray_families->make(&s, all.a[0], &d, r);
+            bool hit = false;
+            for (size_t k = 1; k < all.count; k++)
+                check_ends(all.a[k], all.of[k].config, &ray, &hit);
+            hits += hit;
+        }
+        assert_true(hits > count / 10);
+        free_forms(&all);
+        scene_free(&s);
+    }
+}
+
 static void test_cuts(void **state)
 {
     (void)state;
@@ -369,6 +439,7 @@ int main(void)
         cmocka_unit_test(test_scales),  cmocka_unit_test(test_lengths),
         cmocka_unit_test(test_spheres), cmocka_unit_test(test_mirrors),
         cmocka_unit_test(test_turns),   cmocka_unit_test(test_orders),
+        cmocka_unit_test(test_ties),    cmocka_unit_test(test_ends),
         cmocka_unit_test(test_cuts),
     };
     return cmocka_run_group_tests_name("metamorphic", tests, NULL, NULL);
