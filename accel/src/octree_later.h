@@ -100,6 +100,12 @@ bool octree_validate_lazy(const accel *a, const struct octree_later *tree, accel
 /* Frees what was built below. */
 void octree_free_parts(const struct octree_lazy *lazy, struct octree_later *later);
 
+/* The default of the option `part`. On the dragon of 871,414 triangles, against an eager build: up
+ * to the first 100 rays, build included, took 0.57 of the time with 512, 0.60 with 4,096, 0.67 with
+ * 16,384, and all of it without parts. Rays through what was built took 7 to 20 % longer with 512;
+ * with more the difference did not show. */
+enum { OCTREE_PART = 4096 };
+
 /* The option `part`, for kinds that hold lazy octrees. */
 #define OCTREE_PART_OPTION                                                                         \
     {                                                                                              \
@@ -108,6 +114,5 @@ void octree_free_parts(const struct octree_lazy *lazy, struct octree_later *late
                    "parts",                                                                        \
         .min = 1, .max = 1e9, .standard = OCTREE_PART, .whole = true                               \
     }
-enum { OCTREE_PART = 4096 };
 
 #endif
