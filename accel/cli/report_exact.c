@@ -161,13 +161,13 @@ static void draw_element(FILE *script, const char *condition, int x, const char 
             style);
 }
 
-/* The points of one panel; an arrow down where none is wrong. */
+/* The points of one panel; a small triangle below where none is wrong. */
 static void draw_points(FILE *script, const char *scene, int x)
 {
     const accel_forms forms = accel_report_forms();
     fprintf(script,
-            "plot '%s' using (strcol(1) eq '%s' && $9 == 0 ? $%d : NaN):11:(0):(-0.6*$11) with "
-            "vectors filled size graph 0.012,25 lc rgb '#999999', ",
+            "plot '%s' using (strcol(1) eq '%s' && $9 == 0 ? $%d : NaN):(0.45*$11) with points pt "
+            "11 ps 0.45 lc rgb '#999999', ",
             csv_name, scene, x);
     char condition[160];
     for (size_t i = 0; i < DRAWN_PEERS; i++) {
@@ -201,7 +201,8 @@ static void draw_key(FILE *script)
         fprintf(script, "NaN with points %s title '%s', ", accel_plot_style(forms.at[i]),
                 forms.at[i]);
     }
-    fprintf(script, "NaN with points lc rgb '#999999' pt 0 title '↓ none wrong: stands at 1/N'\n");
+    fprintf(script,
+            "NaN with points lc rgb '#999999' pt 11 ps 0.5 title 'none wrong: stands at 1/N'\n");
 }
 
 /* A panel for each titled scene, three in a row, and the key below. */
@@ -213,7 +214,8 @@ static bool draw(accel_reporting *r, const char *name, int x, const char *xlabel
     }
     fprintf(plot.script,
             "set multiplot\nset logscale xy\nset xrange %s\nset yrange [5e-6:2]\n"
-            "unset mxtics\nunset mytics\nset tmargin 0\nset bmargin 0\nset lmargin 0\nset rmargin "
+            "unset mxtics\nunset mytics\nset ytics 100\nset tmargin 0\nset bmargin 0\nset lmargin "
+            "0\nset rmargin "
             "0\nset size 0.27,0.2\n",
             range);
     int panel = 0;
@@ -256,8 +258,8 @@ static bool draw_distance(accel_reporting *r)
             "'#b56a93'\n"
             "set label 3 \"all kinds of ours:\\nnone wrong (< 1/N)\" at 2e15,3e-4 tc rgb "
             "'#0072B2'\n"
-            "plot '%s' using ($9 == 0 ? d(strcol(1)) : NaN):11:(0):(-0.6*$11) with vectors filled "
-            "size graph 0.008,25 lc rgb '#999999', ",
+            "plot '%s' using ($9 == 0 ? d(strcol(1)) : NaN):(0.5*$11) with points pt 11 ps 0.6 lc "
+            "rgb '#999999', ",
             csv_name);
     for (size_t i = 0; i < DRAWN_PEERS; i++) {
         const struct drawn_peer *p = &drawn_peers[i];
@@ -297,7 +299,8 @@ static bool write_page(accel_reporting *r, const comparison *all)
     }
     snprintf(caption, sizeof caption,
              "Time per ray (right is slower) against the share of wrong answers (down is better). "
-             "Where none of N answers was wrong, the point stands at 1/N with an arrow down: read "
+             "Where none of N answers was wrong, the point stands at 1/N with a small triangle "
+             "below: read "
              "“&lt; 1/N”. <b>Where we lose:</b> %s",
              peer);
     return accel_page_plot(r, "exact", csv_name, caption) &&

@@ -69,6 +69,7 @@ static void write_style(const accel_plot *plot, int width, int height)
             "set grid lc rgb '#dddddd' lt 1 lw 0.6\n"
             "set key noautotitle textcolor rgb '#222222'\n"
             "set pointsize 0.75\n"
+            "set samples 2\n"
             "none = '#888888'\n",
             width, height, plot->name);
 }

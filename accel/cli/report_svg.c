@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
  * Making gnuplot's SVG smaller, to about a third: it opens a group of style for every stroke.
- * Groups that only carry a name are left out, so are empty ones; neighbours of one style become
- * one.
+ * Groups that only carry a name are left out, so are empty ones and styles that SVG takes for
+ * granted; neighbours of one style become one.
  *
  * Only tags of groups are understood; all other bytes are copied. Bad at: SVG that gnuplot did not
  * write.
@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_DEPTH = 64 };
+enum { MOST_DEPTH = 64, MOST_TAG = 400 };
 
 /* What is being written. */
 typedef struct writer {
@@ -59,6 +59,18 @@ static bool join(writer *w, const char *tag, size_t length)
     return same;
 }
 
+/* Cuts `what` out of the tag; returns its new length. */
+static size_t cut(char *tag, size_t length, const char *what)
+{
+    char *at = strstr(tag, what);
+    if (at == NULL) {
+        return length;
+    }
+    const size_t gone = strlen(what);
+    memmove(at, at + gone, strlen(at + gone) + 1);
+    return length - gone;
+}
+
 static void open_group(writer *w, const char *tag, size_t length)
 {
     const bool named = strncmp(tag, "<g id=", 6) == 0;
@@ -93,15 +105,20 @@ static void close_group(writer *w)
     put(w, "</g>", 4);
 }
 
-/* Copies what is no tag of a group, without titles and tabs; returns where it ends. */
+/* Copies what is no tag of a group, without titles, tabs and repeated spaces; returns where it
+ * ends. */
 static const char *copy(writer *w, const char *text)
 {
     if (strncmp(text, "<title>gnuplot_plot_", 20) == 0) {
         const char *end = strstr(text, "</title>");
         return end == NULL ? text + strlen(text) : end + 8;
     }
-    const bool line_end = *text == '\n' && w->used > 0 && w->out[w->used - 1] == '\n';
-    if (*text != '\t' && !line_end) {
+    if (strncmp(text, "<text></text>", 13) == 0) {
+        return text + 13;
+    }
+    const bool again =
+        (*text == '\n' || *text == ' ') && w->used > 0 && w->out[w->used - 1] == *text;
+    if (*text != '\t' && !again) {
         put(w, text, 1);
     }
     return text + 1;
@@ -118,9 +135,18 @@ void accel_svg_shrink(char *svg)
             close_group(&w);
             at += 4;
         } else if (strncmp(at, "<g ", 3) == 0) {
-            const size_t length = tag_length(at);
+            char tag[MOST_TAG];
+            size_t length = tag_length(at);
+            const char *next = at + length;
+            if (length < sizeof tag) {
+                memcpy(tag, at, length);
+                tag[length] = '\0';
+                length = cut(tag, length, " stroke-linecap=\"butt\"");
+                length = cut(tag, length, " stroke-linejoin=\"miter\"");
+                at = tag;
+            }
             open_group(&w, at, length);
-            at += length;
+            at = next;
         } else {
             at = copy(&w, at);
         }
