@@ -22,22 +22,6 @@ static bool broken(const struct checker *c, const char *what, size_t number)
     return false;
 }
 
-/* The ids whose boxes meet the cell, in a new array of *kept. */
-static uint32_t *meeting(const struct checker *c, const uint32_t *ids, size_t count,
-                         const accel_box *cell, size_t *kept)
-{
-    uint32_t *list = malloc((count ? count : 1) * sizeof *list);
-    if (!list) {
-        error_set(c->error, ACCEL_NO_MEMORY, "validate: no memory for %zu ids", count);
-        return NULL;
-    }
-    *kept = 0;
-    for (size_t i = 0; i < count; i++)
-        if (box_overlaps(&c->bsp->base.prims.box[ids[i]], cell))
-            list[(*kept)++] = ids[i];
-    return list;
-}
-
 static bool check_leaf(struct checker *c, const struct bsp_node *leaf, const uint32_t *ids,
                        size_t count)
 {
@@ -63,7 +47,7 @@ static bool check_half(struct checker *c, const struct bsp_node *node, int half,
     if (half && !empty && node->first != c->nodes)
         return broken(c, "the half above does not follow the one below, node", node->first);
     size_t kept;
-    uint32_t *list = meeting(c, ids, count, &box, &kept);
+    uint32_t *list = primitives_meeting(&c->bsp->base.prims, ids, count, &box, &kept, c->error);
     if (!list)
         return false;
     const bool fine = !empty      ? check_cell(c, &box, list, kept, depth)

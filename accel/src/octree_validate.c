@@ -23,22 +23,6 @@ static bool broken(const struct checker *c, const char *what, uint32_t number)
     return false;
 }
 
-/* The ids whose boxes meet the cell, in a new array of *kept. */
-static uint32_t *meeting(const struct checker *c, const uint32_t *ids, size_t count,
-                         const accel_box *cell, size_t *kept)
-{
-    uint32_t *list = malloc((count ? count : 1) * sizeof *list);
-    if (!list) {
-        error_set(c->error, ACCEL_NO_MEMORY, "validate: no memory for %zu ids", count);
-        return NULL;
-    }
-    *kept = 0;
-    for (size_t i = 0; i < count; i++)
-        if (box_overlaps(&c->a->prims.box[ids[i]], cell))
-            list[(*kept)++] = ids[i];
-    return list;
-}
-
 static bool check_leaf(const struct checker *c, const struct octree_cell *cell, const uint32_t *ids,
                        size_t count, uint32_t depth)
 {
@@ -67,7 +51,7 @@ static bool check_child(const struct checker *c, const struct octree_node *node,
             *(child >> k & 1 ? &box.lo[k] : &box.hi[k]) = node->plane[k];
     }
     size_t kept;
-    uint32_t *list = meeting(c, ids, count, &box, &kept);
+    uint32_t *list = primitives_meeting(&c->a->prims, ids, count, &box, &kept, c->error);
     if (!list)
         return false;
     const bool fine = node->mask >> child & 1

@@ -5,6 +5,7 @@
  */
 #include "primitives.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 #include "box.h"
@@ -358,6 +359,21 @@ bool primitives_copy(struct build *build, const accel_scene *scene)
     array_trim(&build->a->memory, &p->bounded);
     describe(build);
     return true;
+}
+
+uint32_t *primitives_meeting(const struct primitives *p, const uint32_t *ids, size_t count,
+                             const accel_box *cell, size_t *kept, accel_error *error)
+{
+    uint32_t *list = malloc((count ? count : 1) * sizeof *list);
+    if (!list) {
+        error_set(error, ACCEL_NO_MEMORY, "validate: no memory for %zu ids", count);
+        return NULL;
+    }
+    *kept = 0;
+    for (size_t i = 0; i < count; i++)
+        if (box_overlaps(&p->box[ids[i]], cell))
+            list[(*kept)++] = ids[i];
+    return list;
 }
 
 static void free_data(struct memory *m, struct geometry *g)

@@ -55,6 +55,11 @@ bool primitives_copy(struct build *build, const accel_scene *scene);
 bool primitives_move_triangles(struct build *build, const uint32_t *ids, size_t count,
                                double **out);
 
+/* Those of the ids whose boxes meet a cell, *kept of them in a new array that the caller free()s:
+ * for checks. NULL: no memory, and *error says so. */
+uint32_t *primitives_meeting(const struct primitives *p, const uint32_t *ids, size_t count,
+                             const accel_box *cell, size_t *kept, accel_error *error);
+
 void primitives_free(struct memory *m, struct primitives *p);
 
 static inline const struct geometry *primitives_geometry(const struct primitives *p, uint32_t id)
