@@ -92,11 +92,12 @@ static double mean_size(const struct gatherer *g)
 
 /* ----------------------------------------------------------------------- a pass ---- */
 
-/* The octave of the cells for a box and a gap: neither is larger than half of one. */
+/* The octave of the cells for a box and a gap: the box is no larger than one, the gap than a
+ * quarter. Boxes of a few sizes share a grid, as each is compared with all coarser grids. */
 static uint32_t cells_for(const accel_box *unit, double gap)
 {
-    const double size = fmax(box_longest(unit), 2.0 * gap);
-    return size < 0.5 ? octave_of(2.0 * size) : 0;
+    const double size = fmax(box_longest(unit), 4.0 * gap);
+    return size < 0.5 ? octave_of(size) / SIZES_PER_GRID * SIZES_PER_GRID : 0;
 }
 
 /* Counting sort of the clusters by octave. */

@@ -13,12 +13,12 @@
 #include "order.h"
 
 /* One of so many primitives goes into the sample, within bounds. */
-enum { SHARE = 64, SMALLEST = 1024, LARGEST = 65536 };
+enum { SHARE = 64, SMALLEST = 512, LARGEST = 65536 };
 
 /* Primitives that share a cell with another, on average, at most: where they are loose, and where
  * they touch, as parts are then split (cluster_bins.c). Few primitives are told apart well: there
- * it is at most one for each PER_OTHER of the scene. */
-enum { LOOSE_OTHERS = 160, OTHERS = 320, PER_OTHER = 128 };
+ * it is at most one for each so many of the scene. */
+enum { LOOSE_OTHERS = 160, LOOSE_PER_OTHER = 64, OTHERS = 320, PER_OTHER = 128 };
 
 /* Where there are MANY, no more than this share may have a cell to themselves. */
 enum { MANY = 4096 };
@@ -101,7 +101,8 @@ static size_t judge_class(const struct keyed *at, size_t count, double scale, ui
             thin += company[o].of_size;
     }
     const double total = scale * (double)count;
-    const double most = fmin(2 * thin > count ? LOOSE_OTHERS : OTHERS, total / PER_OTHER);
+    const double most = 2 * thin > count ? fmin(LOOSE_OTHERS, total / LOOSE_PER_OTHER)
+                                         : fmin(OTHERS, total / PER_OTHER);
     uint32_t o = 0;
     while (o < CELLS_OCTAVES - 1 && company[o].all * scale > most * (double)count)
         o++;
