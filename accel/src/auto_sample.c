@@ -114,9 +114,10 @@ static bool are_joined(const double *a, const double *b)
 static bool joins_next(const struct primitives *p, uint32_t id)
 {
     const struct geometry *g = primitives_geometry(p, id);
+    if (g->type != ACCEL_TRIANGLES || id - g->first + 1 == g->count)
+        return false;
     const double *vertices = g->data + 9 * (size_t)(id - g->first);
-    return g->type == ACCEL_TRIANGLES && id - g->first + 1 < g->count &&
-           are_joined(vertices, vertices + 9);
+    return are_joined(vertices, vertices + 9);
 }
 
 /* Half the surface of a primitive's box, in units of the scene's frame; not 0. */
