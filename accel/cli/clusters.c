@@ -57,8 +57,8 @@ typedef struct request {
 typedef struct figures {
     const char *scene;
     double clusters[MOST_REPEATS], builds[MOST_REPEATS]; /* seconds; sorted in the end */
-    size_t turns;    /* taken */
-    accel_info info; /* of the last turn */
+    size_t turns;                                        /* taken */
+    accel_info info;                                     /* of the last turn */
 } figures;
 
 /* ------------------------------------------------------------------------ output ---- */
