@@ -37,10 +37,12 @@ typedef struct summary {
     uint64_t primitives;
     accel_run fastest, slowest_build; /* of ours, linear left out */
     accel_run peer;                   /* the fastest; its name is empty where there is none */
+    double built;                     /* seconds of all builds */
 } summary;
 
 static void sum_up(summary *s, const accel_run *run)
 {
+    s->built += run->build;
     if (strcmp(run->name, "linear") == 0) {
         return;
     }
@@ -68,7 +70,7 @@ static bool run_all(accel_reporting *r, FILE *csv, const char *scene, double x, 
 {
     accel_ground g;
     if (!accel_ground_make(&g, r, scene, x < 0.0 ? ACCEL_GROUND_BOUNCES : ACCEL_GROUND_PHOTONS,
-                           rays, 0.05 * seconds)) {
+                           rays, 0.01 * seconds)) {
         return false;
     }
     const uint64_t primitives = accel_scene_primitives(&g.loaded.scene);
@@ -81,7 +83,8 @@ static bool run_all(accel_reporting *r, FILE *csv, const char *scene, double x, 
             continue;
         }
         accel_progress_show(&r->progress, scene, (double)i / (double)forms.count);
-        fine = accel_run_config(&run, r, &g, forms.at[i], 0.02 * seconds);
+        const bool linear = strcmp(forms.at[i], "linear") == 0;
+        fine = accel_run_config(&run, r, &g, forms.at[i], (linear ? 0.002 : 0.02) * seconds);
         if (fine) {
             write_row(csv, scene, primitives, x < 0.0 ? (double)primitives : x, &run);
             sum_up(s, &run);
@@ -113,7 +116,8 @@ static bool run_sizes(accel_reporting *r, FILE *csv, double seconds, summary *s)
         if (!run_all(r, csv, sizes[i], -1.0, rays_for(seconds), seconds, s)) {
             return false;
         }
-        const double next = 8.0 * (accel_seconds() - start);
+        /* builds take a little more than ten times as long, rays less than twice */
+        const double next = 2.0 * (accel_seconds() - start) + 15.0 * s->built;
         if (i + 1 >= LEAST && accel_seconds() + next > end) {
             break;
         }
