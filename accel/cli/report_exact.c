@@ -147,9 +147,8 @@ static const struct drawn_peer {
 } drawn_peers[] = {
     {"given", "medium", "Embree fast", "lc rgb '#882255' pt 1 lw 2"},
     {"given", "medium robust", "Embree robust", "lc rgb '#882255' pt 2 lw 2"},
-    {"rounded", "medium", "Embree fast, of its own rounded input", "lc rgb '#d59fbd' pt 1 lw 2"},
-    {"rounded", "medium robust", "Embree robust, of its own rounded input",
-     "lc rgb '#d59fbd' pt 2 lw 2"},
+    {"rounded", "medium", "Embree fast, rounded input", "lc rgb '#d59fbd' pt 1 lw 2"},
+    {"rounded", "medium robust", "Embree robust, rounded input", "lc rgb '#d59fbd' pt 2 lw 2"},
 };
 
 enum { DRAWN_PEERS = sizeof drawn_peers / sizeof drawn_peers[0] };
@@ -191,7 +190,7 @@ static void draw_key(FILE *script)
     fprintf(script,
             "unset title\nunset xlabel\nunset ylabel\nunset border\nunset tics\nunset grid\n"
             "unset logscale\nset xrange [0:1]\nset yrange [0:1]\nset origin 0.02,0\n"
-            "set size 0.96,0.12\nset key horizontal Left reverse center center samplen 1 maxcols 4"
+            "set size 0.96,0.14\nset key horizontal Left reverse center center samplen 1 maxcols 4"
             " font ',12'\nplot ");
     for (size_t i = 0; i < DRAWN_PEERS; i++) {
         fprintf(script, "NaN with points %s title '%s', ", drawn_peers[i].style,
@@ -201,8 +200,7 @@ static void draw_key(FILE *script)
         fprintf(script, "NaN with points %s title '%s', ", accel_plot_style(forms.at[i]),
                 forms.at[i]);
     }
-    fprintf(script,
-            "NaN with points lc rgb '#999999' pt 11 ps 0.5 title 'none wrong: stands at 1/N'\n");
+    fprintf(script, "NaN with points lc rgb '#999999' pt 11 ps 0.5 title 'none wrong: at 1/N'\n");
 }
 
 /* A panel for each titled scene, three in a row, and the key below. */
