@@ -47,11 +47,11 @@ struct octree_node {
 
 /* The parts of one or many octrees. */
 struct octree_pool {
-    ARRAY_OF(uint64_t) words; /* the inner nodes, each as many words as it needs */
-    ARRAY_OF(uint32_t) refs;
-    ARRAY_OF(struct octree_later) later; /* none unless lazy: see octree_later.h */
-    ARRAY_OF(uint32_t) later_ids;        /* what meets them, one run after the other */
     size_t nodes, leaves;                /* how many there are */
+    ARRAY_OF(uint32_t) later_ids;        /* what meets `later`, one run after the other */
+    ARRAY_OF(struct octree_later) later; /* none unless lazy: see octree_later.h */
+    ARRAY_OF(uint32_t) refs;
+    ARRAY_OF(uint64_t) words; /* the inner nodes, each as many words as it needs */
 };
 
 /* Bits set in the lower 8. */

@@ -41,13 +41,15 @@ struct octree_later {
     struct octree_part *_Atomic built; /* NULL until a ray enters it */
 };
 
-/* A part as it is built: one block, in which its pool lies too. Immutable once published. */
+/* A part as it is built: one block, in which its pool lies too, the nodes first. So what a ray
+ * needs to enter, the end of this and the first node, is in one or two lines of the cache.
+ * Immutable once published. */
 struct octree_part {
-    struct octree_cell root;
-    struct octree_pool pool;
+    size_t bytes;   /* of the block */
     uint32_t depth; /* of its deepest leaf, in the tree */
     bool refused;   /* see octree_note_refused */
-    size_t bytes;   /* of the block */
+    struct octree_pool pool;
+    struct octree_cell root;
 };
 
 /* How parts are built. */
