@@ -22,8 +22,9 @@ static inline struct frame frame_of(const accel_box *scene)
     for (int k = 0; k < 3; k++)
         side = fmax(side, scene->hi[k] - scene->lo[k]);
     frexp(side, &exponent);
-    /* A scene smaller than 2^-1000 would need a scale beyond double's range. */
-    const double scale = ldexp(1.0, exponent < -1000 ? 1000 : -exponent);
+    /* A scene smaller than 2^-999 would need a scale beyond double's range: grids multiply it by up
+     * to 2^24. */
+    const double scale = ldexp(1.0, exponent < -999 ? 999 : -exponent);
     return (struct frame){{scene->lo[0], scene->lo[1], scene->lo[2]}, scale};
 }
 
