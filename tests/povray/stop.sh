@@ -30,12 +30,11 @@ need_binaries
 mkdir -p "$build/tests/stop"
 cd "$build/tests/stop"
 for count in 400000 1600000 3200000; do
-    if stop_build $count; then
-        if [ "$code" -ne 2 ] || grep -qa 'Build time' stop.log; then
-            die "exit code $code, not 2, or the build went on: see $PWD/stop.log"
-        fi
+    # a build that was done before the signal came says nothing: a longer one has to be stopped
+    if stop_build $count && ! grep -qa 'Build time' stop.log; then
+        [ "$code" -eq 2 ] || die "exit code $code, not 2: see $PWD/stop.log"
         echo "stopped while building over $count spheres"
         exit 0
     fi
 done
-die "the build over $count spheres takes less than a second: it cannot be stopped"
+die "no build was stopped, not even that over $count spheres: see $PWD/stop.log"
