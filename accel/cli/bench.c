@@ -43,7 +43,7 @@ static const accel_flag flags[] = {
                   "tables"},
 };
 
-enum { MOST_SCENES = 64, CONFIG_SIZE = 64 };
+enum { MOST_SCENES = 64 };
 
 /* Tests that linear may take to judge rays of one kind, and the rays that it judges at least. */
 enum { JUDGING_TESTS = 50000000, FEWEST_JUDGED = 200 };
@@ -54,7 +54,7 @@ typedef struct request {
     const char *scenes[MOST_SCENES];
     size_t scene_count;
     accel_configs configs;
-    char texts[ACCEL_MOST_CONFIGS][CONFIG_SIZE]; /* of configs that nobody typed */
+    accel_forms forms; /* where no config is given */
     bool sets[ACCEL_SETS];
     uint64_t count, repeats, pilot;
     uint64_t judged; /* 0: as many as is quick */
@@ -293,42 +293,10 @@ static bool read_sets(request *r, const char *list)
     }
 }
 
-static void add_default(request *r, const char *format, const char *kind, const char *key,
-                        const char *word)
-{
-    if (r->configs.count < ACCEL_MOST_CONFIGS) {
-        char *text = r->texts[r->configs.count];
-        snprintf(text, CONFIG_SIZE, format, kind, key, word);
-        r->configs.items[r->configs.count++] = text;
-    }
-}
-
-/* What makes a kind another structure. */
+/* What makes a kind another structure; when it is built, as by lazy, is not asked here. */
 static bool is_form(const accel_option *option)
 {
-    return option->words != NULL &&
-           (strcmp(option->key, "form") == 0 || strcmp(option->key, "root") == 0);
-}
-
-/* Every kind but the judge, and each once more for every form but its default. */
-static void default_configs(request *r)
-{
-    size_t count;
-    const accel_kind_info *const *kinds = accel_kinds(&count);
-    for (size_t i = 0; i < count; i++) {
-        if (strcmp(kinds[i]->name, "linear") == 0) {
-            continue;
-        }
-        add_default(r, "%s", kinds[i]->name, NULL, NULL);
-        for (size_t o = 0; o < kinds[i]->option_count; o++) {
-            const accel_option *option = &kinds[i]->options[o];
-            for (size_t w = 0; is_form(option) && option->words[w] != NULL; w++) {
-                if ((double)w != option->standard) {
-                    add_default(r, "%s:%s=%s", kinds[i]->name, option->key, option->words[w]);
-                }
-            }
-        }
-    }
+    return strcmp(option->key, "form") == 0 || strcmp(option->key, "root") == 0;
 }
 
 static bool take(accel_arguments *a, int flag, void *user)
@@ -382,7 +350,10 @@ static int run(const accel_command *command, int argc, char **argv)
     }
     r.quiet = arguments.quiet;
     if (r.configs.count == 0) {
-        default_configs(&r);
+        r.forms = accel_forms_of_kinds(is_form);
+        if (!accel_configs_add_forms(&r.configs, &r.forms, command)) {
+            return ACCEL_EXIT_BAD;
+        }
     }
     return run_into_file(&r);
 }

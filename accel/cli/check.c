@@ -37,51 +37,10 @@ static const accel_flag flags[] = {
 typedef struct request {
     const char *scene, *ray;
     accel_configs configs;
+    accel_forms forms;                    /* where no config is given */
     bool asked;                           /* the configs are given by -a */
     uint64_t rays, seed, threads, judged; /* 0 for the default of threads and judged */
 } request;
-
-/* Adds KIND, or KIND:key=word for an option; `texts` has room for ACCEL_MOST_CONFIGS of them. */
-static bool add_form(accel_configs *configs, const char *kind, const char *key, const char *word,
-                     char (*texts)[60], const accel_command *command)
-{
-    char *text = texts[configs->count % ACCEL_MOST_CONFIGS];
-    snprintf(text, sizeof texts[0], key ? "%s:%s=%s" : "%s", kind, key, word);
-    return accel_configs_add(configs, text, command);
-}
-
-/* A kind as it comes, then with each other word that one of its options may have. */
-static bool every_form(accel_configs *configs, const accel_kind_info *kind, char (*texts)[60],
-                       const accel_command *command)
-{
-    bool fine = add_form(configs, kind->name, NULL, NULL, texts, command);
-    for (size_t k = 0; k < kind->option_count; k++) {
-        const accel_option *option = &kind->options[k];
-        for (size_t w = 0; fine && option->words != NULL && option->words[w] != NULL; w++) {
-            fine = w == (size_t)option->standard ||
-                   add_form(configs, kind->name, option->key, option->words[w], texts, command);
-        }
-    }
-    return fine;
-}
-
-/* Every kind but linear in every form it has; auto last, as it is one of the others. */
-static bool every_config(accel_configs *configs, const accel_command *command)
-{
-    static char texts[ACCEL_MOST_CONFIGS][60];
-    size_t count;
-    const accel_kind_info *const *kinds = accel_kinds(&count);
-    const accel_kind_info *last = NULL;
-    for (size_t i = 0; i < count; i++) {
-        if (strcmp(kinds[i]->name, "auto") == 0) {
-            last = kinds[i];
-        } else if (strcmp(kinds[i]->name, "linear") != 0 &&
-                   !every_form(configs, kinds[i], texts, command)) {
-            return false;
-        }
-    }
-    return last == NULL || every_form(configs, last, texts, command);
-}
 
 /* Has a structure with the same resolved config been built before? Is it the judge itself? */
 static bool is_known(const accel_check *check, const accel_info *info)
@@ -198,8 +157,11 @@ static int run_request(const accel_command *command, request *request, bool quie
                               command->arguments);
     }
     request->asked = request->configs.count != 0;
-    if (!request->asked && !every_config(&request->configs, command)) {
-        return ACCEL_EXIT_BAD;
+    if (!request->asked) {
+        request->forms = accel_forms_of_kinds(NULL);
+        if (!accel_configs_add_forms(&request->configs, &request->forms, command)) {
+            return ACCEL_EXIT_BAD;
+        }
     }
     accel_check *check = calloc(1, sizeof *check);
     if (check == NULL) {

@@ -73,16 +73,6 @@ const char *accel_plot_style(const char *name);
 
 /* ------------------------------------------------------------------ figures ---- */
 
-enum { ACCEL_MOST_FORMS = 40 };
-
-/* Every kind, and every kind with each word of its options that is not the default: the forms. */
-typedef struct accel_forms {
-    char at[ACCEL_MOST_FORMS][80]; /* CONFIGs */
-    size_t count;
-} accel_forms;
-
-accel_forms accel_report_forms(void);
-
 /* Is there a kind but linear and auto? Otherwise says so on the page, under the title. */
 bool accel_report_has_structures(accel_reporting *r, const char *id, const char *title);
 

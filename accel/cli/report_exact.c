@@ -163,7 +163,7 @@ static void draw_element(FILE *script, const char *condition, int x, const char 
 /* The points of one panel; a small triangle below where none is wrong. */
 static void draw_points(FILE *script, const char *scene, int x)
 {
-    const accel_forms forms = accel_report_forms();
+    const accel_forms forms = accel_forms_of_kinds(NULL);
     fprintf(script,
             "plot '%s' using (strcol(1) eq '%s' && $9 == 0 ? $%d : NaN):(0.45*$11) with points pt "
             "11 ps 0.45 lc rgb '#999999', ",
@@ -186,7 +186,7 @@ static void draw_points(FILE *script, const char *scene, int x)
 /* The names of all contenders, at the bottom. */
 static void draw_key(FILE *script)
 {
-    const accel_forms forms = accel_report_forms();
+    const accel_forms forms = accel_forms_of_kinds(NULL);
     fprintf(script,
             "unset title\nunset xlabel\nunset ylabel\nunset border\nunset tics\nunset grid\n"
             "unset logscale\nset xrange [0:1]\nset yrange [0:1]\nset origin 0.02,0\n"

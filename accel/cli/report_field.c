@@ -21,7 +21,7 @@ static double length_of(const struct test_scene *s)
 
 bool accel_field_build(accel_field *field, accel_reporting *r, const accel_exam *exam)
 {
-    const accel_forms forms = accel_report_forms();
+    const accel_forms forms = accel_forms_of_kinds(NULL);
     field->count = 0;
     for (size_t i = 0; i < forms.count; i++) {
         accel *a = accel_report_build(r, &exam->scene->scene, forms.at[i]);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * What the sections share: the forms of all kinds, files of figures, builds.
+ * What the sections share: files of figures, builds.
  */
 #include "report.h"
 
@@ -8,38 +8,6 @@
 
 #include <errno.h>
 #include <string.h>
-
-static void add_form(accel_forms *f, const char *kind, const char *key, const char *word)
-{
-    if (f->count == ACCEL_MOST_FORMS) {
-        return;
-    }
-    char *to = f->at[f->count++];
-    if (key == NULL) {
-        snprintf(to, sizeof f->at[0], "%s", kind);
-    } else {
-        snprintf(to, sizeof f->at[0], "%s:%s=%s", kind, key, word);
-    }
-}
-
-accel_forms accel_report_forms(void)
-{
-    accel_forms f = {.count = 0};
-    size_t kinds;
-    const accel_kind_info *const *kind = accel_kinds(&kinds);
-    for (size_t i = 0; i < kinds; i++) {
-        add_form(&f, kind[i]->name, NULL, NULL);
-        for (size_t o = 0; o < kind[i]->option_count; o++) {
-            const accel_option *option = &kind[i]->options[o];
-            for (size_t w = 0; option->words != NULL && option->words[w] != NULL; w++) {
-                if ((double)w != option->standard) {
-                    add_form(&f, kind[i]->name, option->key, option->words[w]);
-                }
-            }
-        }
-    }
-    return f;
-}
 
 bool accel_report_has_structures(accel_reporting *r, const char *id, const char *title)
 {

@@ -74,7 +74,7 @@ static bool run_all(accel_reporting *r, FILE *csv, const char *scene, double x, 
         return false;
     }
     const uint64_t primitives = accel_scene_primitives(&g.loaded.scene);
-    const accel_forms forms = accel_report_forms();
+    const accel_forms forms = accel_forms_of_kinds(NULL);
     bool fine = true;
     *s = (summary){.primitives = primitives};
     for (size_t i = 0; fine && i < forms.count; i++) {
@@ -170,7 +170,7 @@ static const struct drawn_peer {
 
 static void draw_panel(FILE *script, const char *csv, const struct panel *p, const char *x)
 {
-    const accel_forms forms = accel_report_forms();
+    const accel_forms forms = accel_forms_of_kinds(NULL);
     fprintf(script, "set title '%s' offset 0,-0.5\nplot ", p->title);
     for (size_t i = 0; p->peers && i < 2; i++) {
         fprintf(script, "'%s' using (strcol(3)[13:] eq '%s' ? %s : NaN):(%s) with linespoints %s, ",
@@ -185,7 +185,7 @@ static void draw_panel(FILE *script, const char *csv, const struct panel *p, con
 
 static void draw_key(FILE *script, double height)
 {
-    const accel_forms forms = accel_report_forms();
+    const accel_forms forms = accel_forms_of_kinds(NULL);
     fprintf(script,
             "unset title\nunset xlabel\nunset ylabel\nunset border\nunset tics\nunset grid\n"
             "unset logscale\nset xrange [0:1]\nset yrange [0:1]\nset origin 0.05,0\n"

@@ -4,6 +4,8 @@
  */
 #include "structure.h"
 
+#include <string.h>
+
 bool accel_configs_add(accel_configs *configs, const char *config, const accel_command *command)
 {
     if (configs->count == ACCEL_MOST_CONFIGS) {
@@ -12,6 +14,18 @@ bool accel_configs_add(accel_configs *configs, const char *config, const accel_c
         return false;
     }
     configs->items[configs->count++] = config;
+    return true;
+}
+
+bool accel_configs_add_forms(accel_configs *configs, const accel_forms *forms,
+                             const accel_command *command)
+{
+    for (size_t i = 0; i < forms->count; i++) {
+        if (strcmp(forms->at[i], "linear") != 0 &&
+            !accel_configs_add(configs, forms->at[i], command)) {
+            return false;
+        }
+    }
     return true;
 }
 

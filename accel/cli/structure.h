@@ -5,6 +5,7 @@
 #ifndef ACCEL_CLI_STRUCTURE_H
 #define ACCEL_CLI_STRUCTURE_H
 
+#include "forms.h"
 #include "options.h"
 #include "progress.h"
 #include "scene.h"
@@ -19,6 +20,10 @@ typedef struct accel_configs {
 
 /* Adds one, or complains and returns false. */
 bool accel_configs_add(accel_configs *configs, const char *config, const accel_command *command);
+
+/* Adds all but linear, which judges the others; `forms` must stay. False: said. */
+bool accel_configs_add_forms(accel_configs *configs, const accel_forms *forms,
+                             const accel_command *command);
 
 /* Loads SCENE with progress, or complains and returns false. */
 bool accel_open_scene(accel_loaded *loaded, const char *name, const accel_command *command,
