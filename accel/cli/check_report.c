@@ -80,10 +80,12 @@ static void print_head(const accel_check *check)
            accel_scene_primitives(&check->loaded.scene), check->loaded.scene.count);
     printf("rays: %" PRIu64 ", seed %" PRIu64 ", of %d families in turn; of them hit:",
            check->ray_count, check->rays.seed, ACCEL_FAMILIES);
-    const double each = (double)check->ray_count / ACCEL_FAMILIES;
-    for (int i = 0; i < ACCEL_FAMILIES; i++) {
-        printf(" %s %.0f%%", accel_family_name((accel_family)i),
-               100.0 * (double)check->suspects[0].family_hits[i] / each);
+    for (uint64_t i = 0; i < ACCEL_FAMILIES; i++) {
+        const uint64_t rays = (check->ray_count + ACCEL_FAMILIES - 1 - i) / ACCEL_FAMILIES;
+        if (rays > 0) {
+            printf(" %s %.0f%%", accel_family_name((accel_family)i),
+                   100.0 * (double)check->suspects[0].family_hits[i] / (double)rays);
+        }
     }
     printf("\n");
     if (check->judged_count == check->ray_count) {
