@@ -198,6 +198,11 @@ accel_status accel_build(accel **out, const accel_scene *scene, const char *conf
                          !out     ? "out"
                          : !scene ? "scene"
                                   : "scene.geometries");
+    if (hooks->pilot_count > 0 && !hooks->pilot)
+        return error_set(error, ACCEL_BAD_ARGUMENT,
+                         "build: hooks.pilot is NULL, but hooks.pilot_count is %zu; nothing was "
+                         "built",
+                         hooks->pilot_count);
     const struct accel_kind *kind = config_parse(config, option, error);
     accel *a = kind ? allocate(kind, hooks, error) : NULL;
     if (!a)

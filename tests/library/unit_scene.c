@@ -263,6 +263,10 @@ static void test_bad_arguments(void **state)
     accel *a = (accel *)&a;
     assert_int_equal(accel_build(&a, NULL, NULL, NULL, &error), ACCEL_BAD_ARGUMENT);
     assert_null(a);
+    const accel_scene empty = {NULL, 0};
+    const accel_hooks no_rays = {.pilot_count = 3};
+    assert_int_equal(accel_build(&a, &empty, NULL, &no_rays, &error), ACCEL_BAD_ARGUMENT);
+    assert_non_null(strstr(error.text, "hooks.pilot is NULL"));
     accel_free(NULL);
 }
 

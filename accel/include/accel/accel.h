@@ -226,9 +226,10 @@ typedef struct accel_hooks {
     /* Called at least about every 10 ms of a build with the name of the phase and its done part
      * in 0..1; return false to cancel. Never called by queries. */
     bool (*progress)(void *user, const char *phase, double done);
-    /* First rays that will come, such as every so many-th of a camera, `pilot_count` of them; a few
-     * hundred are enough. The kind "auto" counts what they, and rays that go on from what they hit,
-     * would visit before it chooses; they decide no answer. Read during accel_build only. */
+    /* First rays that will come, such as every so many-th of a camera, `pilot_count` of them; of
+     * more than 256 every so many-th is taken. The kind "auto" counts what they, and rays that go
+     * on from what they hit, would visit before it chooses; they decide no answer. Read during
+     * accel_build only. */
     const accel_ray *pilot;
     size_t pilot_count;
 } accel_hooks;
@@ -363,8 +364,9 @@ ACCEL_API bool accel_padded_box(const accel *a, accel_id id, accel_box *box);
 /* Walks the whole structure and checks every invariant that the exactness proof needs: every
  * primitive is in every cell that its box meets, boxes contain what is below them, indices are in
  * range, depth is within its cap; of a lazy structure as much as is built, and the lists of what
- * is not. Takes time linear in the structure's size. Others may query meanwhile.
- * Returns ACCEL_OK, or ACCEL_BROKEN with the first violation in *error. */
+ * is not. Takes about the time of a build. Others may query meanwhile.
+ * Returns ACCEL_OK; ACCEL_BROKEN with the first violation in *error (which may be NULL); or
+ * ACCEL_NO_MEMORY if malloc, which it uses whatever the hooks are, has none for its marks. */
 ACCEL_API accel_status accel_validate(const accel *a, accel_error *error);
 
 #ifdef __cplusplus
