@@ -34,8 +34,10 @@ static void describe(struct build *build, const struct grid_kind *k, const struc
     build_note(build, "%u x %u x %u cells", g->cells[0], g->cells[1], g->cells[2]);
     grid_note_empty(build, &k->pool);
     if (plan->coarser)
-        build_note(build, "coarser than density=%g asks: the memory would not be in proportion",
-                   plan->density);
+        build_note(
+            build,
+            "coarser than density=%g asks: for memory in proportion, or as cells list most items",
+            plan->density);
 }
 
 static bool build(struct build *build)

@@ -63,7 +63,7 @@ struct grid_plan {
     double cost;       /* predicted, of a line that meets the grid's box, in visits of a node */
     double tests;      /* of that, for testing items */
     double room;       /* factor on the bounds that keep memory in proportion to the items */
-    bool coarser;      /* than was asked for, to keep within the bounds */
+    bool coarser;      /* than was asked for: for the bounds, or a pile */
 };
 
 /* Chooses the cells of a grid over the items, not empty: `density` cells per item, as cubic as
@@ -86,11 +86,12 @@ double grid_list_cost(const struct primitives *p, struct grid_items items);
 /* Halves the number of cells. */
 void grid_coarsen(struct grid_plan *plan);
 
-/* Leaves one cell. */
+/* Makes it one cell. */
 void grid_give_up(struct grid_plan *plan);
 
 /* Makes the parts of grid `number` of the pool, whose box is filled in, over the items, not empty;
- * coarser than the plan where its bricks or references would not be in proportion to the items.
+ * coarser than the plan where its bricks or references would not be in proportion to the items;
+ * of one cell where most cells would list most items.
  * The progress of the phase runs from `from` to `to`. */
 bool grid_build(struct build *build, struct grid_pool *pool, size_t number, struct grid_items items,
                 struct grid_plan *plan, double from, double to);

@@ -332,8 +332,8 @@ static void note(const struct builder *b)
     if (b->build->a->option[HUG_FORM] == HUG_FORM_PAPER && !isnan(b->build->a->option[HUG_DENSITY]))
         build_note(b->build, "density is not used: it is for form=density");
     if (b->coarser)
-        build_note(b->build, "some grids are coarser than asked for: the memory would not be in "
-                             "proportion");
+        build_note(b->build, "some grids are coarser than asked for: for memory in proportion, "
+                             "or as cells list most items");
     if (b->full)
         build_note(b->build, "crowded cells stayed lists: %d references per primitive were met",
                    BUDGET);
