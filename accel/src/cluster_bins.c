@@ -214,7 +214,8 @@ static bool plan_pieces(struct binner *b, bool *crumbs)
         return build_no_memory(p->build);
     for (size_t i = 0; i < p->part.count; i++) {
         const uint32_t pieces = pieces_of(&b->slabs.at[i]), count = p->part.at[i].count;
-        const bool split = pieces > 1 && pieces <= count + MOST_SPARE;
+        const bool split =
+            pieces > 1 && pieces <= (uint64_t)count + MOST_SPARE && cut + pieces <= ACCEL_NONE;
         b->first_of.at[i] = split ? (uint32_t)cut : ACCEL_NONE;
         cut += split ? pieces : 0;
         crumbled += pieces > 1 && pieces > count / PARTS_CRUMB ? count : 0;
