@@ -32,16 +32,6 @@ static const struct expected {
     {"mixed", "one geometry", all_kinds, false, true},
 };
 
-static bool is_compiled(const char *name)
-{
-    size_t count;
-    const accel_kind_info *const *kind = accel_kinds(&count);
-    for (size_t i = 0; i < count; i++)
-        if (strcmp(kind[i]->name, name) == 0)
-            return true;
-    return false;
-}
-
 static void check(const struct expected *e, const struct test_scene *s, const char *kind)
 {
     accel *a = must_build(s, kind);
@@ -70,7 +60,7 @@ static void test_expectations(void **state)
         struct test_scene s;
         scene_make(&s, scene_maker_find(expectations[i].scene), test_seed());
         for (const char *const *kind = expectations[i].kinds; *kind; kind++)
-            if (is_compiled(*kind))
+            if (kind_is_there(*kind))
                 check(&expectations[i], &s, *kind);
         scene_free(&s);
     }
@@ -98,7 +88,7 @@ static void test_short_cluster(void **state)
         const struct expected tree = {"two balls", "one cluster", NULL, true, true};
         char config[40];
         snprintf(config, sizeof config, "%s:connectivity=0,octaves=64", configs[i][0]);
-        if (!is_compiled(configs[i][0]))
+        if (!kind_is_there(configs[i][0]))
             continue;
         check(&list, &s, config);
         check(&tree, &s, config);
