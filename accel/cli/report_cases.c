@@ -8,6 +8,8 @@
  */
 #include "report_cases.h"
 
+#include "quantile.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -53,10 +55,10 @@ static void add_variant(cases *x, accel_case *row, const accel_exam *e)
     }
 }
 
-static int compare(const void *a, const void *b)
+/* Nanoseconds of a ray, over the variants. */
+static double case_ns(const cases *x, const accel_case *row, size_t c)
 {
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
+    return x->ns[c] / (double)(row->rays > 0 ? row->rays : 1);
 }
 
 /* The time of each form over its time on the generic scene. */
@@ -68,14 +70,14 @@ static void compare_cost(const cases *x, accel_case *row)
         if (x->field.at[c].peer || strcmp(x->field.at[c].name, "linear") == 0) {
             continue;
         }
-        cost[count] = x->ns[c] / (double)(row->rays + 1) / x->generic.ns[c];
+        cost[count] = case_ns(x, row, c) / x->generic.ns[c];
         if (cost[count] > row->cost_worst) {
             row->cost_worst = cost[count];
             snprintf(row->worst, sizeof row->worst, "%s", x->field.at[c].name);
         }
         count++;
     }
-    qsort(cost, count, sizeof cost[0], compare);
+    accel_sort_values(cost, count);
     row->cost_middle = count > 0 ? cost[count / 2] : 0.0;
 }
 
@@ -96,7 +98,7 @@ static void write_rows(const cases *x, const accel_case *row)
 {
     for (size_t c = 0; c < x->field.count; c++) {
         const accel_contender *at = &x->field.at[c];
-        const double ns = x->ns[c] / (double)(row->rays + 1);
+        const double ns = case_ns(x, row, c);
         fprintf(x->csv, "%s,%s,%s,%s,%s,%d,%zu,%zu,%zu,%zu,%zu,%.1f,%.3f\n", row->test, row->name,
                 row->scene != NULL ? row->scene : row->name, accel_judge_names[row->judge],
                 at->name, at->peer, row->rays, at->peer ? row->decided_peer : row->decided,
@@ -167,7 +169,8 @@ static bool run_case(cases *x, accel_case row, accel_exam_subject on, uint32_t v
                      double seconds, size_t most)
 {
     if (x->count == ACCEL_MOST_CASES) {
-        return true;
+        accel_complain(x->r->command, "more than %d cases; nothing was written", ACCEL_MOST_CASES);
+        return false;
     }
     memset(x->wrong, 0, sizeof x->wrong);
     memset(x->single, 0, sizeof x->single);

@@ -109,7 +109,7 @@ static void compare_peers(const examined *x)
         *(x->field.at[c].peer ? &theirs : &ours) = fmin(x->field.at[c].peer ? theirs : ours, ns);
         if (x->field.at[c].peer) {
             share = fmin(share, (double)accel_exam_wrong(&x->exam, &x->field.at[c]) /
-                                    (double)(x->exam.decided_peer + 1));
+                                    fmax(1.0, (double)x->exam.decided_peer));
         }
     }
     if (x->exam.peers && isfinite(theirs) && theirs > 0.0) {
@@ -254,11 +254,10 @@ static bool draw_distance(accel_reporting *r)
             "set label 1 \"Embree, judged by\\nthe scene as given\" at 2e15,0.8 tc rgb '#882255'\n"
             "set label 2 \"Embree, judged by\\nthe scene rounded\" at 2e15,2.5e-2 tc rgb "
             "'#b56a93'\n"
-            "set label 3 \"all kinds of ours:\\nnone wrong (< 1/N)\" at 2e15,3e-4 tc rgb "
-            "'#0072B2'\n"
+            "set label 3 \"%s\" at 2e15,3e-4 tc rgb '#0072B2'\n"
             "plot '%s' using ($9 == 0 ? d(strcol(1)) : NaN):(0.5*$11) with points pt 11 ps 0.6 lc "
             "rgb '#999999', ",
-            csv_name);
+            r->wrong == 0 ? "all kinds of ours:\\nnone wrong (< 1/N)" : "hoo", csv_name);
     for (size_t i = 0; i < DRAWN_PEERS; i++) {
         const struct drawn_peer *p = &drawn_peers[i];
         fprintf(

@@ -5,6 +5,7 @@
 #include "machine.h"
 #include "photons.h"
 #include "photons_surface.h"
+#include "quantile.h"
 #include "scatter.h"
 
 #include <stdlib.h>
@@ -125,12 +126,6 @@ void accel_ground_free(accel_ground *g)
     accel_unload_scene(&g->loaded);
 }
 
-static int compare(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /* Traces all rays; what is timed. */
 static void trace_ours(const void *state, const accel_ray_set *set)
 {
@@ -153,9 +148,10 @@ static double median_ns(void (*trace)(const void *, const accel_ray_set *), cons
     for (int turn = 0; turn < TURNS; turn++) {
         const double start = accel_machine_seconds();
         trace(state, set);
-        ns[turn] = 1e9 * (accel_machine_seconds() - start) / (double)(set->count + 1);
+        ns[turn] =
+            1e9 * (accel_machine_seconds() - start) / (double)(set->count > 0 ? set->count : 1);
     }
-    qsort(ns, TURNS, sizeof ns[0], compare);
+    accel_sort_values(ns, TURNS);
     return ns[TURNS / 2];
 }
 
