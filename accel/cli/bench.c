@@ -7,7 +7,6 @@
 #include "bench.h"
 #include "commands.h"
 #include "machine.h"
-#include "output.h"
 
 #include <inttypes.h>
 #include <stdio.h>
@@ -43,16 +42,13 @@ static const accel_flag flags[] = {
                   "tables"},
 };
 
-enum { MOST_SCENES = 64 };
-
 /* Tests that linear may take to judge rays of one kind, and the rays that it judges at least. */
 enum { JUDGING_TESTS = 50000000, FEWEST_JUDGED = 200 };
 
 /* What was asked for. */
 typedef struct request {
     const accel_command *command;
-    const char *scenes[MOST_SCENES];
-    size_t scene_count;
+    accel_scene_names scenes;
     accel_configs configs;
     accel_forms forms; /* where no config is given */
     bool sets[ACCEL_SETS];
@@ -232,8 +228,8 @@ static int run_scene(request *r, const char *name)
 static int run_scenes(request *r)
 {
     int worst = ACCEL_EXIT_FINE;
-    for (size_t i = 0; i < r->scene_count && worst != ACCEL_EXIT_BAD; i++) {
-        const int code = run_scene(r, r->scenes[i]);
+    for (size_t i = 0; i < r->scenes.count && worst != ACCEL_EXIT_BAD; i++) {
+        const int code = run_scene(r, r->scenes.items[i]);
         worst = code > worst ? code : worst;
         fflush(stdout);
     }
@@ -256,13 +252,7 @@ static int run_into_file(request *r)
         return accel_complain(r->command, "%s", error.text);
     }
     r->output.csv = output.file;
-    const int code = run_scenes(r);
-    if (code != ACCEL_EXIT_FINE) {
-        accel_output_abandon(&output);
-    } else if (!accel_output_commit(&output, &error)) {
-        return accel_complain(r->command, "%s", error.text);
-    }
-    return code;
+    return accel_end_output(&output, run_scenes(r), r->command);
 }
 
 /* ------------------------------------------------------------------ arguments ---- */
@@ -323,14 +313,8 @@ static bool take(accel_arguments *a, int flag, void *user)
         r->csv_name = a->value;
         return true;
     default:
-        break;
+        return accel_scene_names_add(&r->scenes, a->value, r->command);
     }
-    if (r->scene_count == MOST_SCENES) {
-        accel_complain(r->command, "more than %d scenes; allowed are %d", MOST_SCENES, MOST_SCENES);
-        return false;
-    }
-    r->scenes[r->scene_count++] = a->value;
-    return true;
 }
 
 static int run(const accel_command *command, int argc, char **argv)
@@ -344,7 +328,7 @@ static int run(const accel_command *command, int argc, char **argv)
     if (!accel_take_arguments(&arguments, take, &r)) {
         return arguments.exit_code;
     }
-    if (r.scene_count == 0) {
+    if (r.scenes.count == 0) {
         return accel_complain(command, "no SCENE is given; usage: accel %s %s", command->name,
                               command->arguments);
     }

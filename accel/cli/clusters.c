@@ -5,7 +5,6 @@
  */
 #include "commands.h"
 #include "machine.h"
-#include "output.h"
 #include "quantile.h"
 #include "structure.h"
 
@@ -22,7 +21,7 @@ static const accel_flag flags[] = {
     [FLAG_CSV] = {"csv", 0, "FILE", "write all figures there as well"},
 };
 
-enum { MOST_SCENES = 64, MOST_REPEATS = 51, LEAST = 10000 };
+enum { MOST_REPEATS = 51, LEAST = 10000 };
 
 /* A generator that grows: `option` is `per` * n^power for n primitives, at most `last`. */
 typedef struct family {
@@ -44,8 +43,7 @@ enum { FAMILIES = sizeof families / sizeof families[0] };
 /* What was asked for. */
 typedef struct request {
     const accel_command *command;
-    const char *scenes[MOST_SCENES];
-    size_t scene_count;
+    accel_scene_names scenes;
     uint64_t most, repeats;
     bool quiet;
     bool headed; /* the head has been printed */
@@ -180,8 +178,8 @@ static int run_word(request *r, const char *word)
 static int run_words(request *r)
 {
     int code = ACCEL_EXIT_FINE;
-    for (size_t i = 0; i < r->scene_count && code == ACCEL_EXIT_FINE; i++) {
-        code = run_word(r, r->scenes[i]);
+    for (size_t i = 0; i < r->scenes.count && code == ACCEL_EXIT_FINE; i++) {
+        code = run_word(r, r->scenes.items[i]);
     }
     return code;
 }
@@ -199,13 +197,7 @@ static int run_into_file(request *r)
     }
     r->csv = output.file;
     fprintf(r->csv, "scene,primitives,clusters,size_classes,cluster_seconds,build_seconds\n");
-    const int code = run_words(r);
-    if (code != ACCEL_EXIT_FINE) {
-        accel_output_abandon(&output);
-    } else if (!accel_output_commit(&output, &error)) {
-        return accel_complain(r->command, "%s", error.text);
-    }
-    return code;
+    return accel_end_output(&output, run_words(r), r->command);
 }
 
 static bool take(accel_arguments *a, int flag, void *user)
@@ -220,14 +212,8 @@ static bool take(accel_arguments *a, int flag, void *user)
         r->csv_name = a->value;
         return true;
     default:
-        break;
+        return accel_scene_names_add(&r->scenes, a->value, r->command);
     }
-    if (r->scene_count == MOST_SCENES) {
-        accel_complain(r->command, "more than %d scenes; allowed are %d", MOST_SCENES, MOST_SCENES);
-        return false;
-    }
-    r->scenes[r->scene_count++] = a->value;
-    return true;
 }
 
 static int run(const accel_command *command, int argc, char **argv)
@@ -238,10 +224,10 @@ static int run(const accel_command *command, int argc, char **argv)
         return arguments.exit_code;
     }
     r.quiet = arguments.quiet;
-    for (size_t i = 0; r.scene_count == 0 && i < FAMILIES; i++) {
-        r.scenes[i] = families[i].name;
+    for (size_t i = 0; r.scenes.count == 0 && i < FAMILIES; i++) {
+        r.scenes.items[i] = families[i].name;
     }
-    r.scene_count = r.scene_count > 0 ? r.scene_count : FAMILIES;
+    r.scenes.count = r.scenes.count > 0 ? r.scenes.count : FAMILIES;
     return run_into_file(&r);
 }
 

@@ -10,7 +10,6 @@
 #include "bench.h"
 #include "commands.h"
 #include "machine.h"
-#include "output.h"
 #include "quantile.h"
 
 #include <inttypes.h>
@@ -27,7 +26,7 @@ static const accel_flag flags[] = {
     [FLAG_CSV] = {"csv", 0, "FILE", "write all figures there as well"},
 };
 
-enum { MOST_SCENES = 64, MOST_MARKS = 10, MOST_REPEATS = 51, JUDGED = 200 };
+enum { MOST_MARKS = 10, MOST_REPEATS = 51, JUDGED = 200 };
 
 /* The two that are compared. */
 enum { EAGER, LAZY, BOTH };
@@ -35,8 +34,7 @@ enum { EAGER, LAZY, BOTH };
 /* What was asked for. */
 typedef struct request {
     const accel_command *command;
-    const char *scenes[MOST_SCENES];
-    size_t scene_count;
+    accel_scene_names scenes;
     const char *config;
     uint64_t rays, repeats;
     bool quiet;
@@ -337,8 +335,8 @@ static int run_scene(request *q, const char *name)
 static int run_scenes(request *q)
 {
     int worst = ACCEL_EXIT_FINE;
-    for (size_t i = 0; i < q->scene_count && worst != ACCEL_EXIT_BAD; i++) {
-        const int code = run_scene(q, q->scenes[i]);
+    for (size_t i = 0; i < q->scenes.count && worst != ACCEL_EXIT_BAD; i++) {
+        const int code = run_scene(q, q->scenes.items[i]);
         worst = code > worst ? code : worst;
     }
     return worst;
@@ -358,13 +356,7 @@ static int run_into_file(request *q)
     q->csv = output.file;
     fprintf(q->csv, "scene,config,rays,eager_seconds,lazy_seconds,render_rays,unbuilt_clusters,"
                     "clusters,unbuilt_primitives,primitives,lazy_bytes,eager_bytes\n");
-    const int code = run_scenes(q);
-    if (code != ACCEL_EXIT_FINE) {
-        accel_output_abandon(&output);
-    } else if (!accel_output_commit(&output, &error)) {
-        return accel_complain(q->command, "%s", error.text);
-    }
-    return code;
+    return accel_end_output(&output, run_scenes(q), q->command);
 }
 
 static bool take(accel_arguments *a, int flag, void *user)
@@ -382,14 +374,8 @@ static bool take(accel_arguments *a, int flag, void *user)
         q->csv_name = a->value;
         return true;
     default:
-        break;
+        return accel_scene_names_add(&q->scenes, a->value, q->command);
     }
-    if (q->scene_count == MOST_SCENES) {
-        accel_complain(q->command, "more than %d scenes; allowed are %d", MOST_SCENES, MOST_SCENES);
-        return false;
-    }
-    q->scenes[q->scene_count++] = a->value;
-    return true;
 }
 
 static int run(const accel_command *command, int argc, char **argv)
@@ -399,7 +385,7 @@ static int run(const accel_command *command, int argc, char **argv)
     if (!accel_take_arguments(&arguments, take, &q)) {
         return arguments.exit_code;
     }
-    if (q.scene_count == 0) {
+    if (q.scenes.count == 0) {
         return accel_complain(command, "no SCENE is given; usage: accel %s %s", command->name,
                               command->arguments);
     }

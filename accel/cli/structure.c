@@ -29,6 +29,28 @@ bool accel_configs_add_forms(accel_configs *configs, const accel_forms *forms,
     return true;
 }
 
+bool accel_scene_names_add(accel_scene_names *names, const char *name, const accel_command *command)
+{
+    if (names->count == ACCEL_MOST_SCENES) {
+        accel_complain(command, "more than %d scenes; allowed are %d", ACCEL_MOST_SCENES,
+                       ACCEL_MOST_SCENES);
+        return false;
+    }
+    names->items[names->count++] = name;
+    return true;
+}
+
+int accel_end_output(accel_output *output, int code, const accel_command *command)
+{
+    accel_error error;
+    if (code != ACCEL_EXIT_FINE) {
+        accel_output_abandon(output);
+    } else if (!accel_output_commit(output, &error)) {
+        return accel_complain(command, "%s", error.text);
+    }
+    return code;
+}
+
 bool accel_open_scene(accel_loaded *loaded, const char *name, const accel_command *command,
                       accel_progress *progress)
 {
