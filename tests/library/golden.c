@@ -71,8 +71,9 @@ static void test_hashes(void **state)
     const size_t count = tested_configs(&list);
     for (size_t i = 0; i < sizeof table / sizeof *table; i++) {
         for (size_t k = 0; k < count; k++) {
-            const uint64_t hash =
-                list[k].standard ? hash_answers(list[k].config, &table[i]) : table[i].hash;
+            if (!list[k].form)
+                continue;
+            const uint64_t hash = hash_answers(list[k].config, &table[i]);
             if (hash == table[i].hash)
                 continue;
             wrong++;
