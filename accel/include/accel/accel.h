@@ -25,12 +25,14 @@
  * with its own accel_query. Builds of different structures are independent.
  *
  * Lazy structures (hoo:lazy=on) are built where rays go: the query that first enters a part builds
- * it. Answers, errors and what is built are the same whichever query comes first and however many
- * threads there are; no query waits for another. Three rules differ. Memory: queries allocate, by
- * accel_hooks.resize, which several threads then call at the same time. Errors: a query that gets
- * no memory tests the part's primitives one by one, so its answer is the same, and later queries
- * try to build again. Hooks: accel_build's progress and cancellation do not cover what queries
- * build. No callback of the scene is called by building, only by testing; boxes were copied.
+ * it, in the floating-point environment of accel_build. Answers, errors and what is built are the
+ * same whichever query comes first and however many threads there are; no query waits for another.
+ * Three rules differ. Memory: queries allocate, by accel_hooks.resize, which several threads then
+ * call at the same time; threads that enter a part together each build it, and all but one free
+ * theirs. Errors: a query that gets no memory tests the part's primitives one by one, so its answer
+ * is the same, and later queries try to build again. Hooks: accel_build's progress and cancellation
+ * do not cover what queries build. No callback of the scene is called by building, only by testing;
+ * boxes were copied.
  *
  * The library never prints, exits or aborts, and has no global state. The floating-point
  * environment is the caller's: under another rounding mode or flush-to-zero the answers may differ
