@@ -43,6 +43,9 @@ enum { ACCEL_LISTS_EVERY = 16 };
 /* Question number `index`. Lists need the closest hit of some structure for their point. */
 accel_question accel_check_question(const accel_check *check, uint64_t index);
 
+/* How many of the first `count` rays are of a family. */
+uint64_t accel_check_family_rays(uint64_t count, uint64_t family);
+
 /* Does linear judge ray `index`? They lie evenly in each family. */
 bool accel_check_judged(const accel_check *check, uint64_t index);
 

@@ -81,7 +81,7 @@ static void print_head(const accel_check *check)
     printf("rays: %" PRIu64 ", seed %" PRIu64 ", of %d families in turn; of them hit:",
            check->ray_count, check->rays.seed, ACCEL_FAMILIES);
     for (uint64_t i = 0; i < ACCEL_FAMILIES; i++) {
-        const uint64_t rays = (check->ray_count + ACCEL_FAMILIES - 1 - i) / ACCEL_FAMILIES;
+        const uint64_t rays = accel_check_family_rays(check->ray_count, i);
         if (rays > 0) {
             printf(" %s %.0f%%", accel_family_name((accel_family)i),
                    100.0 * (double)check->suspects[0].family_hits[i] / (double)rays);

@@ -30,7 +30,7 @@ typedef struct run {
     tally *tallies;               /* of every thread and structure */
 } run;
 
-static uint64_t rays_before(uint64_t count, uint64_t family)
+uint64_t accel_check_family_rays(uint64_t count, uint64_t family)
 {
     return (count + ACCEL_FAMILIES - 1 - family) / ACCEL_FAMILIES;
 }
@@ -38,8 +38,8 @@ static uint64_t rays_before(uint64_t count, uint64_t family)
 bool accel_check_judged(const accel_check *check, uint64_t index)
 {
     const uint64_t family = index % ACCEL_FAMILIES, j = index / ACCEL_FAMILIES;
-    const uint64_t all = rays_before(check->ray_count, family);
-    const uint64_t some = rays_before(check->judged_count, family);
+    const uint64_t all = accel_check_family_rays(check->ray_count, family);
+    const uint64_t some = accel_check_family_rays(check->judged_count, family);
     return (j + 1) * some / all > j * some / all;
 }
 
