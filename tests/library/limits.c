@@ -114,6 +114,8 @@ static void try_pile(accel_type type, uint32_t count, const char *what)
         assert_true(bytes <= 200);
         assert_int_equal(accel_validate(a, NULL), ACCEL_OK);
         check_pile(a, list[i].config);
+        accel_describe(a, &info);
+        assert_true((double)info.bytes / count <= 200); /* what rays have built, too */
         accel_free(a);
     }
     free(list);
