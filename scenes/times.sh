@@ -3,8 +3,9 @@
 # Times of stock POV-Ray's bounding (+BM1, +BM2) and of every kind, in turn, in one run.
 #
 # Times are CPU seconds of tracing, of photons and of radiosity together, as POV-Ray's statistics
-# state them, with one thread for all but the photons; medians. The ratio is that of stock's better method over ours, so below 1 ours is slower. Needs what
-# scenes/demo.sh builds; Tango comes from Debian's povray-examples.
+# state them, with one thread for all but the photons; medians. The ratio is that of stock's better
+# method over ours, so below 1 ours is slower. Needs what scenes/demo.sh builds; Tango comes
+# from Debian's povray-examples.
 set -euo pipefail
 # shellcheck source=scenes/prepare.sh
 . "$(dirname "${BASH_SOURCE[0]}")/prepare.sh"
