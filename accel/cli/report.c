@@ -11,7 +11,8 @@
 enum { FLAG_OUTPUT, FLAG_QUICK, FLAG_MINUTES, FLAG_ONLY };
 
 static const accel_flag flags[] = {
-    [FLAG_OUTPUT] = {"output", 'o', "DIR", "folder to make; a former report there is replaced"},
+    [FLAG_OUTPUT] = {"output", 'o', "DIR",
+                     "folder to make; a former report there is replaced, nothing else"},
     [FLAG_QUICK] = {"quick", 0, NULL, "fewer rays, photons and sizes: less than two minutes"},
     [FLAG_MINUTES] = {"minutes", 0, "M",
                       "about as long, 0..1440 (default: 60); 0: the least counts"},

@@ -12,16 +12,19 @@
 
 /* A folder under way. One at a time in a process. */
 typedef struct accel_folder {
-    const char *path; /* where it will appear */
-    char temporary[4000];
+    char path[3900];      /* where it will appear */
+    char temporary[4000]; /* where it is made; empty: nowhere */
 } accel_folder;
 
 /* Makes it, before anything long is computed. A folder that is there already must be empty or hold
- * a former report, which is replaced at the end. Otherwise fills error->text. */
+ * a former report and nothing else, which is replaced at the end. Otherwise fills error->text. */
 bool accel_folder_open(accel_folder *folder, const char *path, accel_error *error);
 
 /* Opens a file in it to write, or to read back; NULL where that fails, see errno. */
 FILE *accel_folder_file(accel_folder *folder, const char *name, const char *mode);
+
+/* Writes a line that names all files so far: what a later report may remove. */
+void accel_folder_list(FILE *page);
 
 /* Removes one file of it. */
 void accel_folder_remove(accel_folder *folder, const char *name);

@@ -75,6 +75,7 @@ void accel_page_open(accel_reporting *r)
 bool accel_page_close(accel_reporting *r)
 {
     fprintf(r->page, "</body></html>\n");
+    accel_folder_list(r->page);
     const bool fine = !ferror(r->page);
     const bool closed = fclose(r->page) == 0;
     r->page = NULL;

@@ -110,9 +110,29 @@ timeout -s TERM 2 "$accel" report -o ended --minutes 5 --quiet >out 2>err || got
 [ "$got" = 124 ] || fail "ended by a signal it exits with $got: $(cat err)"
 [ "$(find . -maxdepth 1 -name 'ended*' | wc -l)" = 0 ] || fail "ended by a signal it leaves a folder"
 
-# A second report takes the place of the first.
-: >page/old
-expect 0 report -o page --minutes 0 --only exact --quiet
-[ ! -e page/old ] || fail "the former report is not replaced"
+# A second report takes the place of the first, but never of a file that no report has made.
+echo mine >page/notes.txt
+complains "holds 'notes.txt', which no report has made" report -o page
+[ "$(cat page/notes.txt)" = mine ] && [ -e page/cases.csv ] || fail "page has changed"
+rm page/notes.txt
+mkdir page/more && complains "holds 'more'" report -o page/ && rmdir page/more
+expect 0 report -o page/ --minutes 0 --only exact --quiet
+[ -e page/exact.csv ] && [ ! -e page/cases.csv ] || fail "the former report is not replaced"
+(
+    sleep 1
+    echo late >page/late.txt
+) &
+expect 2 report -o page --minutes 0.1 --only exact --quiet
+grep -q "holds 'late.txt'" err && [ "$(cat page/late.txt)" = late ] || fail "a file of the user's is gone"
+
+# What could not be moved into place at the end is refused at the beginning.
+mkdir real && ln -s real link
+complains "symbolic link" report -o link
+complains "symbolic link" report -o link/
+(cd real && complains "give the folder a name" report -o . && [ "$failures" = 0 ]) ||
+    fail "the working folder is not refused"
+complains "give the folder a name" report -o real/..
+complains "file system is mounted there" report -o /proc
+complains "the name is empty" report -o ""
 [ "$(find . -maxdepth 1 -name 'page*' | wc -l)" = 1 ] || fail "a temporary folder is left"
 finish
