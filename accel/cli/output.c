@@ -20,7 +20,8 @@ static void remove_unfinished(int number)
     if (path != NULL) {
         unlink(path);
     }
-    /* the handler was reset when it was called: this ends the process as the signal means */
+    /* not earlier: a second signal, in another thread, would end the process before the unlink */
+    signal(number, SIG_DFL);
     raise(number);
 }
 
@@ -28,8 +29,7 @@ static void watch(const char *path)
 {
     static const int signals[] = {SIGINT, SIGTERM, SIGHUP};
     unfinished = path;
-    struct sigaction action = {.sa_handler = path == NULL ? SIG_DFL : remove_unfinished,
-                               .sa_flags = (int)SA_RESETHAND};
+    struct sigaction action = {.sa_handler = path == NULL ? SIG_DFL : remove_unfinished};
     for (size_t i = 0; i < sizeof signals / sizeof signals[0]; i++) {
         sigaction(signals[i], &action, NULL);
     }
