@@ -9,8 +9,10 @@
 
 #include <accel/accel.h>
 #include <errno.h>
+#include <fcntl.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 static const accel_command *const commands[] = {
     &accel_command_kinds,
@@ -76,12 +78,25 @@ static int run(int argc, char **argv)
     return complain_of_command(argv[1]);
 }
 
+/* Where the shell closed one of them, the next file to be opened would take its place, and get what
+ * is printed. What is printed to these fails. */
+static void occupy_standard_files(void)
+{
+    int file = 0;
+    while (file >= 0 && file <= STDERR_FILENO) {
+        file = open("/dev/null", O_RDONLY);
+    }
+    close(file);
+}
+
 int main(int argc, char **argv)
 {
+    occupy_standard_files();
     const int code = run(argc, argv);
     errno = 0;
     if (fflush(stdout) != 0 || ferror(stdout)) {
-        fprintf(stderr, "accel: cannot write the output: %s\n", strerror(errno));
+        fprintf(stderr, "accel: cannot write the output: %s\n",
+                errno == 0 ? "it is closed or full" : strerror(errno));
         return ACCEL_EXIT_BAD;
     }
     return code;

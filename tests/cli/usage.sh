@@ -68,4 +68,11 @@ done
 got=0
 "$accel" kinds >/dev/full 2>err || got=$?
 [ "$got" = 2 ] || fail "accel kinds to a full device exits with $got"
+
+# Closed standard output: an error, and no file gets what was to be printed.
+got=0
+"$accel" bench one -n 10 --repeats 1 --csv figures.csv >&- 2>err || got=$?
+[ "$got" = 2 ] && grep -q "cannot write the output" err ||
+    fail "accel bench with its output closed exits with $got: $(cat err)"
+! grep -q "every answer" figures.csv || fail "what was to be printed is in the file of figures"
 finish
