@@ -5,7 +5,8 @@
  *
  * assimp reads a truncated PLY or OFF file without complaint as far as it goes, and believes a
  * count of four billion until memory ends. Here every element of a PLY body is walked, text or
- * binary, in one pass without any allocation; OFF needs as many numbers as its counts say. Formats
+ * binary, in one pass without any allocation; OFF needs as many numbers as its counts say, and its
+ * faces vertices that are there: assimp takes the last one instead of another. Formats
  * without counts (OBJ, text STL but for its last word) cannot be checked this way.
  */
 #include "scene_file.h"
@@ -71,12 +72,17 @@ static bool take_line(rest *r, char *line, size_t room)
     return true;
 }
 
-/* Takes the next word of text and reads it as a count; false where the text ends. */
-static bool take_word(rest *r, uint64_t *count)
+static void skip_spaces(rest *r)
 {
     while (r->at < r->end && isspace((unsigned char)*r->at)) {
         r->at++;
     }
+}
+
+/* Takes the next word of text and reads it as a count; false where the text ends. */
+static bool take_word(rest *r, uint64_t *count)
+{
+    skip_spaces(r);
     if (r->at == r->end) {
         return false;
     }
@@ -280,6 +286,20 @@ static char *strip_comments(char *from, const char *end)
     return to;
 }
 
+/* Takes one face; *outside becomes true where a corner is none of the vertices. */
+static bool take_face(rest *line, uint64_t vertices, bool *outside)
+{
+    uint64_t corners, corner;
+    bool fine = take_word(line, &corners);
+    for (; fine && corners > 0; corners--) {
+        skip_spaces(line);
+        const bool negative = line->at < line->end && *line->at == '-';
+        fine = take_word(line, &corner);
+        *outside = *outside || (fine && (negative || corner >= vertices));
+    }
+    return fine;
+}
+
 static const char *check_off(rest r, uint64_t *promised, char text[200])
 {
     uint64_t ignored, vertices = 0, faces = 0;
@@ -287,17 +307,19 @@ static const char *check_off(rest r, uint64_t *promised, char text[200])
     if (!take_word(&r, &vertices) || !take_word(&r, &faces) || !take_word(&r, &ignored)) {
         return "its OFF header has no counts: is it truncated";
     }
-    bool fine = true;
+    bool fine = true, outside = false;
     rest line;
     for (uint64_t i = 0; fine && i < vertices; i++) {
         fine = take_body_line(&r, &line) && take_word(&line, &ignored) &&
                take_word(&line, &ignored) && take_word(&line, &ignored);
     }
     for (uint64_t i = 0; fine && i < faces; i++) {
-        const property corners = {.list_size = 1};
-        fine = take_body_line(&r, &line) && skip_words(&corners, &line);
+        fine = take_body_line(&r, &line) && take_face(&line, vertices, &outside);
     }
     *promised = faces;
+    if (fine && outside) {
+        return "a face refers to a vertex that is not there";
+    }
     snprintf(text, 200,
              "its OFF header promises %llu vertices and %llu faces, but the file ends "
              "before them",

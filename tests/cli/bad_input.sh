@@ -55,6 +55,10 @@ sed 's/^3 1 2 3/3 1 2 99999/' text.ply >index.ply
 complains "vertex" info index.ply
 sed 's/^3 1 2 3/3 1 2 -1/' text.ply >index.ply
 complains "vertex" info index.ply
+for corner in 4 99999 -1; do
+    sed "s/^3 1 2 3/3 1 2 $corner/" text.off >index.off
+    complains "a face refers to a vertex that is not there" info index.off
+done
 sed 's/^f 2 3 4/f 2 3 99999/' text.obj >index.obj
 complains "nothing was loaded" info index.obj
 {
