@@ -18,6 +18,11 @@ cmp first out || fail "threads change what is printed"
 expect 0 check cubes:gap=3 --rays 2400 --seed 6
 cmp -s first out && fail "another seed checks the same rays"
 
+# Shares are of the rays that a family has, not of a twelfth of all.
+expect 0 check cubes:gap=3 --rays 25
+! grep -oE '[0-9]+%' out | tr -d % | awk '$1 > 100 { over = 1 } END { exit !over }' ||
+    fail "more rays hit than there are: $(sed -n 3p out)"
+
 # Most rays of every family that aims at something hit; of odd ones some are refused.
 sed -n 's/.*of them hit: //p' first >families
 for family in vertex edge axis grazing far scaled; do
