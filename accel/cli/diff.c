@@ -170,6 +170,12 @@ static int diff_files(const accel_command *command, char *const names[2], const 
     return code;
 }
 
+static bool ends_in_png(const char *name)
+{
+    const size_t length = strlen(name);
+    return length > 4 && strcmp(name + length - 4, ".png") == 0;
+}
+
 static int run(const accel_command *command, int argc, char **argv)
 {
     accel_arguments arguments = accel_arguments_start(command, argc, argv);
@@ -194,6 +200,10 @@ static int run(const accel_command *command, int argc, char **argv)
             if (count < 2) {
                 return accel_complain(command, "two files are needed; usage: accel %s %s",
                                       command->name, command->arguments);
+            }
+            if (output != NULL && !ends_in_png(output)) {
+                return accel_complain(
+                    command, "-o '%.100s' does not end in .png; nothing was written", output);
             }
             return diff_files(command, names, output);
         }

@@ -389,6 +389,10 @@ static int run(const accel_command *command, int argc, char **argv)
         return accel_complain(command, "no SCENE is given; usage: accel %s %s", command->name,
                               command->arguments);
     }
+    if (strstr(q.config, ":lazy=") != NULL || strstr(q.config, ",lazy=") != NULL) {
+        return accel_complain(command, "-a '%.100s' sets lazy; leave it out, both are built",
+                              q.config);
+    }
     q.quiet = arguments.quiet;
     return run_into_file(&q);
 }

@@ -30,5 +30,5 @@ awk -F, 'NR > 1 && !($4 > 0 && $5 > 0 && $6 <= 1500) { exit 1 }' figures.csv ||
 
 expect 0 lazy empty -a hoo:leaf=4 --rays 20 --repeats 1
 says "hoo:leaf=4,lazy=on"
-complains "lazy is given twice" lazy one -a hoo:lazy=on
+complains "leave it out, both are built" lazy one -a hoo:lazy=on
 finish

@@ -35,6 +35,7 @@ grep -qE 'prim 4294967295 / 0  t inf / (2|1\.9999999999999998|2\.000000000000000
     fail "the only hit is not where it should be: $(cat out)"
 
 # The difference image.
+complains "does not end in .png" diff one.exr far.exr -o one.exr
 expect 1 diff one.exr far.exr -o d.png
 [ "$(head -c 4 d.png | tail -c 3)" = PNG ] || fail "the difference image is no PNG"
 expect 0 diff one.exr one.exr -o same.png
