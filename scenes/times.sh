@@ -10,7 +10,7 @@ set -euo pipefail
 # shellcheck source=scenes/prepare.sh
 . "$(dirname "${BASH_SOURCE[0]}")/prepare.sh"
 
-if [ "${1:-}" = --help ]; then
+if [ "${1:-}" = --help ] || [ "${1:-}" = -h ]; then
     say "usage: scenes/times.sh [--illumination] [RUNS [CONFIG]...]"
     say "default: 5 hoo octree hug grid bsp bvh auto; the scenes are clustered and Tango, with"
     say "--illumination the paper's two with POV-Ray's own photons and radiosity"
@@ -19,7 +19,10 @@ fi
 illumination=0
 [ "${1:-}" != --illumination ] || { illumination=1 && shift; }
 runs=${1:-5}
-[[ $runs =~ ^[1-9][0-9]?$ ]] || die "times.sh: '$runs' runs; 1 to 99 are allowed"
+[[ $runs =~ ^[1-9][0-9]?$ ]] || {
+    echo "times.sh: '$runs' runs; allowed are 1 to 99; --help explains" >&2
+    exit 2
+}
 shift || true
 configs=("$@")
 [ $# -gt 0 ] || configs=(hoo octree hug grid bsp bvh auto)

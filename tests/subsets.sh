@@ -9,11 +9,13 @@
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 export ACCEL_TEST_INTENSITY=${ACCEL_TEST_INTENSITY:-0.02}
+usage="usage: tests/subsets.sh [--all] [SUBSET]..., for instance 'linear;hoo'"
 all=0
-if [ "${1:-}" = --all ]; then
-    all=1
-    shift
-fi
+case "${1:-}" in
+-h | --help) echo "$usage" && exit 0 ;;
+--all) all=1 && shift ;;
+-*) echo "subsets.sh: $1 is no option; $usage" >&2 && exit 2 ;;
+esac
 [ $# -gt 0 ] || set -- linear 'linear;hoo' 'linear;grid;bvh'
 
 fail() {
