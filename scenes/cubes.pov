@@ -58,7 +58,9 @@ light_source { <-70, 24, -20> rgb <0.34, 0.42, 0.58> }
         #local T = 0;
         #while (T < 12)
             triangle {
-                At + Corner(Cube_Faces[T].x), At + Corner(Cube_Faces[T].y), At + Corner(Cube_Faces[T].z)
+                At + Cube_Corners[Cube_Faces[T].x],
+                At + Cube_Corners[Cube_Faces[T].y],
+                At + Cube_Corners[Cube_Faces[T].z]
                 Skin(C, At)
             }
             #local T = T + 1;
@@ -66,8 +68,9 @@ light_source { <-70, 24, -20> rgb <0.34, 0.42, 0.58> }
     #else
         mesh2 {
             vertex_vectors {
-                8, At + Corner(0), At + Corner(1), At + Corner(2), At + Corner(3),
-                At + Corner(4), At + Corner(5), At + Corner(6), At + Corner(7)
+                8, At + Cube_Corners[0], At + Cube_Corners[1], At + Cube_Corners[2],
+                At + Cube_Corners[3], At + Cube_Corners[4], At + Cube_Corners[5],
+                At + Cube_Corners[6], At + Cube_Corners[7]
             }
             face_indices {
                 12, Cube_Faces[0], Cube_Faces[1], Cube_Faces[2], Cube_Faces[3], Cube_Faces[4],

@@ -101,7 +101,7 @@ fetch_dragon() {
 fetch_teapots() {
     say "The paper's teapots, generated: Martin Newell's 32 patches, University of Utah, 1975."
     export_scene teapots teapots 49370 --as mesh2
-    export_scene teapots teapots-triangles 49370 --as triangles
+    export_scene teapots teapots-corners 49370 --as triangles
 }
 
 for what in "$@"; do

@@ -57,10 +57,16 @@ background { rgb <0.045, 0.05, 0.065> }
 #end
 
 #if (Form = 0)
-    #macro Triangle(Number, Prim, A, B, C)
-        triangle { A, B, C texture { Skins[Number] } }
+    #include "teapots-corners.inc"
+    #declare I = 0;
+    #while (I < 10)
+        #declare T = First[I];
+        #while (T < First[I + 1])
+            triangle { Corners[T][0], Corners[T][1], Corners[T][2] texture { Skins[I] } }
+            #declare T = T + 1;
+        #end
+        #declare I = I + 1;
     #end
-    #include "teapots-triangles.inc"
 #else
     #include "teapots.inc"
     #declare I = 0;

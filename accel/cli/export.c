@@ -15,7 +15,7 @@ static const accel_flag flags[] = {
     {"output", 'o', "FILE.inc", "file to write"},
     {"as", 0, "FORM",
      "mesh2 (default): an array Geometry of mesh2 objects, vertices rounded to float;\n"
-     "triangles: a call Triangle(GEOMETRY, PRIM, A, B, C) for each, exact in double"},
+     "triangles: an array Corners[TRIANGLE][3], exact in double; geometry G begins at First[G]"},
 };
 
 /* What is to be done. */

@@ -12,7 +12,7 @@
 /* The forms in which a scene can be written. */
 typedef enum accel_sdl_form {
     ACCEL_SDL_MESH2 = 0, /* an array Geometry of mesh2 objects */
-    ACCEL_SDL_TRIANGLES  /* a call Triangle(GEOMETRY, PRIM, A, B, C) for each triangle */
+    ACCEL_SDL_TRIANGLES  /* arrays Corners and First */
 } accel_sdl_form;
 
 /* Says whether `scene` can be written in `form`; otherwise fills error->text with one line. */

@@ -19,7 +19,9 @@ printf 'v 0.1 0 0\nv 1 0 0\nv 0 1e-30 -2\nf 1 2 3\n' >one.obj
 expect 0 export one.obj -o triangles.inc --as triangles
 [ ! -s out ] || fail "export prints something"
 lines triangles.inc '^// 1 triangles in 1 geometries' 1
-holds triangles.inc "Triangle(0,0,<0.10000000149011612,0,0>,<1,0,0>,<0,1.0000000031710769e-30,-2>)"
+holds triangles.inc "#declare First = array[2] {0,1}"
+holds triangles.inc "#declare Corners = array[1][3] {"
+holds triangles.inc "{<0.10000000149011612,0,0>,<1,0,0>,<0,1.0000000031710769e-30,-2>}"
 expect 0 export one.obj -o mesh.inc
 lines mesh.inc '^// 1 triangles in 1 geometries' 1
 holds mesh.inc "<0.100000001,0,0>,"
@@ -28,12 +30,15 @@ holds mesh.inc "<0,1,2>"
 
 # The generators: all triangles, geometry by geometry, in order.
 expect 0 export teapots:quads=2 -o teapots.inc --as triangles
-awk -F '[(,]' '/^Triangle/ {
-        if ($2 != geometry) { if ($2 != geometry + 1) exit 1; geometry = $2; prim = 0 }
-        if ($3 != prim++) exit 1
-        total++
-    } END { exit geometry != 9 || total < 1000 }' geometry=0 teapots.inc ||
-    fail "the triangles of teapots are not in order"
+total=$(grep -c '^{<' teapots.inc)
+[ "$total" -ge 1000 ] || fail "teapots has $total triangles"
+lines teapots.inc "^// $total triangles in 10 geometries" 1
+lines teapots.inc "^#declare Corners = array\[$total\]\[3\] \{\$" 1
+awk -F '[{,}]' -v total="$total" '/^#declare First/ {
+        if ($2 != 0 || $12 != total || NF != 13) exit 1
+        for (i = 3; i <= 12; i++) if ($i <= $(i - 1)) exit 1
+        found = 1
+    } END { exit !found }' teapots.inc || fail "First does not number the triangles of teapots"
 expect 0 export teapots:quads=2 -o teapots-mesh.inc --as mesh2
 lines teapots-mesh.inc '^#declare Geometry\[[0-9]\] = mesh2 \{$' 10
 lines teapots-mesh.inc '^normal_vectors' 10

@@ -37,23 +37,26 @@ global_settings { assumed_gamma 1 }
     (Part * 4 * Total)
 #end
 
-#macro Triangle(Geometry, Prim, A, B, C)
-    Coded(A, B, C)
-#end
-
 #if (Scene = 0)
     #include "cubes.inc"
     #macro Cube(C, At)
         #local T = 0;
         #while (T < 12)
-            Coded(At + Corner(Cube_Faces[T].x), At + Corner(Cube_Faces[T].y),
-                  At + Corner(Cube_Faces[T].z))
+            Coded(At + Cube_Corners[Cube_Faces[T].x], At + Cube_Corners[Cube_Faces[T].y],
+                  At + Cube_Corners[Cube_Faces[T].z])
             #local T = T + 1;
         #end
     #end
     #declare All = union { Cubes(Gap, 1) }
 #else
-    #declare All = union { #include "triangles.inc" }
+    #include "triangles.inc"
+    #declare All = union {
+        #declare T = 0;
+        #while (T < dimension_size(Corners, 1))
+            Coded(Corners[T][0], Corners[T][1], Corners[T][2])
+            #declare T = T + 1;
+        #end
+    }
 #end
 
 #if (Number != Total)

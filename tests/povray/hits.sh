@@ -46,7 +46,7 @@ provide_geometry() {
     *)
         form=1 gap=0
         "$build/accel" export "$scene" --as triangles -o "$work/triangles.inc" --quiet
-        total=$(grep -c '^Triangle' "$work/triangles.inc")
+        total=$(grep -c '^{' "$work/triangles.inc")
         ;;
     esac
 }
@@ -67,7 +67,7 @@ first_of_geometry() {
     if [ "$form" -eq 0 ]; then
         echo "0 0"
     else
-        awk -F '[(,]' '/^Triangle/ && $2 "" != last "" { last = $2; print $2, n + 0 } /^Triangle/ { n++ }' \
+        awk -F '[{,}]' '/^#declare First/ { for (i = 2; i < NF - 1; i++) print i - 2, $i }' \
             "$work/triangles.inc"
     fi
 }
