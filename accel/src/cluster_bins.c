@@ -16,7 +16,8 @@
 
 enum {
     SLABS = 64,
-    MOST_SPARE = 8 /* pieces that a part may have beyond its primitives; most will stay empty */
+    MOST_SPARE = 8, /* pieces that a part may have beyond its primitives; most will stay empty */
+    CACHED = 65536  /* cells of a table in the cache */
 };
 
 /* The slabs that a part's primitives meet: bit i of each axis. */
@@ -33,13 +34,14 @@ struct grid {
 
 struct binner {
     struct parts *parts;
-    struct grid grid[CELLS_OCTAVES]; /* by class */
-    uint32_t *table;                 /* the part of each cell; NULL where there are too many */
-    size_t table_size;               /* cells of all grids */
-    struct cells cells;              /* each with its part, where there is no table */
-    ARRAY_OF(struct slabs) slabs;    /* by part; none where primitives are loose */
-    ARRAY_OF(uint32_t) first_of;     /* by part: where its pieces begin, ACCEL_NONE: not split */
-    ARRAY_OF(uint32_t) pieces;       /* the parts they become, ACCEL_NONE: none yet */
+    struct grid grid[CELLS_OCTAVES];   /* by class */
+    uint64_t from[SLABS], upto[SLABS]; /* the bits of the slabs from and up to each */
+    uint32_t *table;                   /* the part of each cell; NULL where there are too many */
+    size_t table_size;                 /* cells of all grids */
+    struct cells cells;                /* each with its part, where there is no table */
+    ARRAY_OF(struct slabs) slabs;      /* by part; none where primitives are loose */
+    ARRAY_OF(uint32_t) first_of;       /* by part: where its pieces begin, ACCEL_NONE: not split */
+    ARRAY_OF(uint32_t) pieces;         /* the parts they become, ACCEL_NONE: none yet */
 };
 
 /* A primitive on its way into a part: the slabs where it begins and ends, counted from the scene's
@@ -70,7 +72,7 @@ static inline void find_cell(const struct frame *f, const struct grid *grid, con
 
 static inline uint32_t slab_of(const struct frame *f, const struct grid *grid, double at, int k)
 {
-    return (uint32_t)((at - f->lo[k]) * grid->scale);
+    return (uint32_t)(int32_t)((at - f->lo[k]) * grid->scale);
 }
 
 static inline struct guest guest_of(const struct frame *f, const struct grid *grid,
@@ -97,11 +99,11 @@ static inline uint32_t last_in(uint32_t hi, uint32_t cell)
     return hi - cell * SLABS < SLABS ? hi - cell * SLABS : SLABS - 1;
 }
 
-static inline void meet(struct slabs *s, const struct guest *g)
+static inline void meet(const struct binner *b, struct slabs *s, const struct guest *g)
 {
     for (int k = 0; k < 3; k++) {
         const uint32_t first = first_in(g->lo[k], g->cell[k]), last = last_in(g->hi[k], g->cell[k]);
-        s->met[k] |= UINT64_MAX << first & UINT64_MAX >> (SLABS - 1 - last);
+        s->met[k] |= b->from[first] & b->upto[last];
     }
 }
 
@@ -143,33 +145,39 @@ static inline uint32_t part_of(struct binner *b, uint32_t class, const uint32_t 
 __attribute__((always_inline)) static inline bool fill_as(struct binner *b, bool loose)
 {
     struct parts *p = b->parts;
-    const size_t total = p->build->a->prims.bounded.count;
-    for (size_t i = 0; i < total; i++) {
-        const accel_box *box = parts_box(p, i);
+    const struct frame frame = p->sizes.frame;
+    const accel_box *boxes = p->build->a->prims.box;
+    const struct ids bounded = p->build->a->prims.bounded;
+    uint32_t *piece_of = p->piece_of.at;
+    for (size_t i = 0; i < bounded.count; i++) {
+        const accel_box *box = &boxes[bounded.at[i]];
         const uint32_t class = class_of(p, box);
         struct guest g;
         if (loose)
-            find_cell(&p->sizes.frame, &b->grid[class], box, g.cell);
+            find_cell(&frame, &b->grid[class], box, g.cell);
         else
-            g = guest_of(&p->sizes.frame, &b->grid[class], box);
-        const uint32_t part = part_of(b, class, g.cell, loose);
-        if (part == ACCEL_NONE)
+            g = guest_of(&frame, &b->grid[class], box);
+        const uint32_t number = part_of(b, class, g.cell, loose);
+        if (number == ACCEL_NONE)
             return build_no_memory(p->build);
-        p->piece_of.at[i] = part;
-        p->part.at[part].count++;
-        box_add(&p->part.at[part].box, box);
+        struct cluster *part = &p->part.at[number];
+        piece_of[i] = number;
+        part->count++;
+        box_add(&part->box, box);
         if (!loose)
-            meet(&b->slabs.at[part], &g);
+            meet(b, &b->slabs.at[number], &g);
         if (!parts_tick(p, i))
             return false;
     }
     return true;
 }
 
-/* Makes a table of all cells where these are no more than the primitives. */
+/* Makes a table of all cells where these are no more than the primitives, or few enough to stay in
+ * the cache and to be cleared sooner than hashed. */
 static bool make_table(struct binner *b)
 {
-    if (b->table_size > b->parts->build->a->prims.bounded.count)
+    const size_t total = b->parts->build->a->prims.bounded.count;
+    if (b->table_size > total && b->table_size > (total < CACHED / 4 ? 4 * total : CACHED))
         return true;
     b->table = memory_resize(memory_of(b), NULL, 0, b->table_size * sizeof *b->table);
     if (!b->table)
@@ -298,6 +306,10 @@ bool parts_bin(struct parts *p, struct look *look)
 {
     struct binner b = {.parts = p};
     struct memory *m = memory_of(&b);
+    for (int i = 0; i < SLABS; i++) {
+        b.from[i] = UINT64_MAX << i;
+        b.upto[i] = UINT64_MAX >> (SLABS - 1 - i);
+    }
     for (uint32_t c = 0; c < p->sizes.classes; c++) {
         const uint32_t o = look->octave[c];
         const double scale = p->sizes.frame.scale * (double)(SLABS << o);

@@ -96,7 +96,7 @@ static double mean_size(const struct gatherer *g)
  * quarter. Boxes of a few sizes share a grid, as each is compared with all coarser grids. */
 static uint32_t cells_for(const accel_box *unit, double gap)
 {
-    const double size = fmax(box_longest(unit), 4.0 * gap);
+    const double longest = box_longest(unit), size = longest > 4.0 * gap ? longest : 4.0 * gap;
     return size < 0.5 ? octave_of(size) / SIZES_PER_GRID * SIZES_PER_GRID : 0;
 }
 

@@ -94,17 +94,22 @@ static double lonely(const struct company *c, size_t count)
 static size_t judge_class(const struct keyed *at, size_t count, double scale, uint32_t *octave)
 {
     struct company company[CELLS_OCTAVES];
-    size_t thin = 0;
-    for (uint32_t o = 0; o < CELLS_OCTAVES; o++) {
-        company[o] = company_in(at, count, o);
-        if (company[o].own * scale < THIN * (double)company[o].of_size)
-            thin += company[o].of_size;
+    size_t thin = 0, smaller = count, alone = 0;
+    uint32_t octaves = 0;
+    for (; octaves < CELLS_OCTAVES && alone < count; octaves++) {
+        const struct company c = company_in(at, count, octaves);
+        company[octaves] = c;
+        if (c.own * scale < THIN * (double)c.of_size)
+            thin += c.of_size;
+        smaller -= c.of_size;
+        alone = c.alone;
     }
+    thin += smaller; /* where all are alone, they are in smaller cells too */
     const double total = scale * (double)count;
     const double most = 2 * thin > count ? fmin(LOOSE_OTHERS, total / LOOSE_PER_OTHER)
                                          : fmin(OTHERS, total / PER_OTHER);
     uint32_t o = 0;
-    while (o < CELLS_OCTAVES - 1 && company[o].all * scale > most * (double)count)
+    while (o < octaves - 1 && company[o].all * scale > most * (double)count)
         o++;
     while (o > 0 && total > MANY && lonely(&company[o], count) > LONELY)
         o--;

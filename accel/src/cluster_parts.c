@@ -42,8 +42,3 @@ double parts_unit_cost(const struct parts *p, const accel_box *unit, double coun
 {
     return box_area(unit) * (p->build->a->prims.test_cost + log2(count));
 }
-
-bool parts_tick(const struct parts *p, size_t i)
-{
-    return i % 4096 != 0 || build_tick(p->build, p->now);
-}

@@ -47,7 +47,10 @@ double parts_cost(const struct parts *p, const accel_box *box, double count);
 double parts_unit_cost(const struct parts *p, const accel_box *unit, double count);
 
 /* Reports progress now and then in a loop over i. False if the build is cancelled. */
-bool parts_tick(const struct parts *p, size_t i);
+static inline bool parts_tick(const struct parts *p, size_t i)
+{
+    return i % 4096 != 0 || build_tick(p->build, p->now);
+}
 
 /* The padded box at a position in the list of bounded ids. */
 static inline const accel_box *parts_box(const struct parts *p, size_t position)

@@ -45,10 +45,10 @@ static inline void clip(struct part *p, int k, const accel_box *unit, double cel
 
 static bool touches(const struct group *g, const struct part *p)
 {
+    bool apart = false; /* no branches: nobody can guess them */
     for (int k = 0; k < 3; k++)
-        if (!(p->lo[k] - g->hi[k] <= p->gap && g->lo[k] - p->hi[k] <= p->gap))
-            return false;
-    return true;
+        apart |= (p->lo[k] - g->hi[k] > p->gap) | (g->lo[k] - p->hi[k] > p->gap);
+    return !apart;
 }
 
 /* Grows the part around a group. True if it became larger. */
@@ -56,7 +56,7 @@ static bool grow(struct part *p, const struct group *g)
 {
     bool larger = false;
     for (int k = 0; k < 3; k++) {
-        larger |= g->lo[k] < p->lo[k] || g->hi[k] > p->hi[k];
+        larger |= (g->lo[k] < p->lo[k]) | (g->hi[k] > p->hi[k]);
         p->lo[k] = g->lo[k] < p->lo[k] ? g->lo[k] : p->lo[k];
         p->hi[k] = g->hi[k] > p->hi[k] ? g->hi[k] : p->hi[k];
     }
@@ -138,13 +138,14 @@ uint32_t touching_enter(struct memory *m, struct touching *t, const accel_box *u
     struct part p = {.gap = (float)(2.0 * rule.reach)};
     uint32_t group = ACCEL_NONE, c[3];
     for (c[2] = s.first[2]; c[2] <= s.last[2]; c[2]++) {
+        clip(&p, 2, unit, cells, c[2], rule.reach);
         for (c[1] = s.first[1]; c[1] <= s.last[1]; c[1]++) {
+            clip(&p, 1, unit, cells, c[1], rule.reach);
             for (c[0] = s.first[0]; c[0] <= s.last[0]; c[0]++) {
-                /* Entering a part may grow it, on every axis. */
-                for (int k = 0; k < 3; k++)
-                    clip(&p, k, unit, cells, c[k], rule.reach);
+                clip(&p, 0, unit, cells, c[0], rule.reach);
+                struct part grown = p;
                 const uint64_t key = cell_key(rule.class, rule.octave, c[0], c[1], c[2]);
-                if (!enter_cell(m, t, key, &p, &group))
+                if (!enter_cell(m, t, key, &grown, &group))
                     return ACCEL_NONE;
             }
         }

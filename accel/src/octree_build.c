@@ -51,6 +51,7 @@ struct grower {
     uint8_t children_in[64]; /* by halves */
     uint64_t one_each[64];   /* by halves: 1 in the byte of each child */
     double done, from, to;   /* volume finished, as a share of the root; progress range */
+    uint32_t ticks;          /* leaves made, for progress */
     uint32_t later;          /* cells of no more primitives are left for later; 0: none is */
     const accel_box *tree;   /* the tree's root, if cells are left for later */
     uint32_t depth;          /* deepest leaf so far */
@@ -65,6 +66,7 @@ struct task {
     uint32_t depth;  /* of the cell */
     uint32_t failed; /* splits in a row that did not lower the cost */
     double budget;   /* references that it may become */
+    double volume;   /* share of the root's */
     bool sure;       /* will no split above be taken back? */
 };
 
@@ -204,11 +206,6 @@ static bool find_split(struct grower *g, struct task *t, struct split *s)
     return t->failed <= LOOKAHEAD;
 }
 
-static double volume_share(uint32_t depth)
-{
-    return ldexp(1.0, -3 * (int)depth);
-}
-
 static bool too_large(const struct grower *g, const char *what)
 {
     error_set(
@@ -217,6 +214,15 @@ static bool too_large(const struct grower *g, const char *what)
         "or less depth",
         g->build->a->kind->info.name, what);
     return false;
+}
+
+/* Reports progress. To ask for the time takes as long as to make a small leaf. */
+static bool tick(struct grower *g)
+{
+    enum { LEAVES_A_TICK = 32 };
+    if (++g->ticks % LEAVES_A_TICK != 0)
+        return true;
+    return build_tick(g->build, g->from + (g->to - g->from) * fmin(g->done, 1.0));
 }
 
 static bool make_leaf(struct grower *g, const struct task *t, struct octree_cell *cell)
@@ -231,8 +237,8 @@ static bool make_leaf(struct grower *g, const struct task *t, struct octree_cell
     *cell = (struct octree_cell){(uint32_t)first, t->count};
     g->pool->leaves++;
     g->depth = t->depth > g->depth ? t->depth : g->depth;
-    g->done += volume_share(t->depth);
-    return build_tick(g->build, g->from + (g->to - g->from) * fmin(g->done, 1.0));
+    g->done += t->volume;
+    return tick(g);
 }
 
 /* Primitives of the cell that no other cell has as well: those whose box begins in it. */
@@ -334,7 +340,7 @@ static bool grow_children(struct grower *g, const struct task *t, const struct s
     *cost = NODE_COST;
     for (uint32_t c = 0; c < 8; c++) {
         if (s->count[c] == 0) {
-            g->done += volume_share(t->depth + 1);
+            g->done += t->volume / 8;
             continue;
         }
         const double share = s->count[c] / s->sum;
@@ -344,6 +350,7 @@ static bool grow_children(struct grower *g, const struct task *t, const struct s
                              t->depth + 1,
                              t->failed,
                              t->budget * share,
+                             t->volume / 8,
                              t->sure && (s->pays || !isnan(g->rule.leaf))};
         struct octree_cell made;
         double child_cost;
@@ -435,7 +442,8 @@ bool octree_build(struct build *build, struct octree_pool *pool, struct octree *
                   double from, double to)
 {
     struct grower g = grower_of(build, pool, rule);
-    struct task root = {.box = *box, .count = (uint32_t)count, .budget = budget_of(rule, count)};
+    struct task root = {
+        .box = *box, .count = (uint32_t)count, .budget = budget_of(rule, count), .volume = 1.0};
     g.from = from;
     g.to = to;
     tree->box = *box;
