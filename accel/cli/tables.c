@@ -18,7 +18,7 @@ enum { FLAG_TABLE, FLAG_QUICK, FLAG_PHOTONS, FLAG_REPEATS, FLAG_THREADS, FLAG_CS
 
 static const accel_flag flags[] = {
     [FLAG_TABLE] = {"table", 0, "N", "only table 1, 2 or 3"},
-    [FLAG_QUICK] = {"quick", 0, NULL, "fewer photons, turns and gaps: a minute instead of an hour"},
+    [FLAG_QUICK] = {"quick", 0, NULL, "fewer photons, turns and gaps: seconds instead of ten minutes"},
     [FLAG_PHOTONS] = {"photons", 'n', "N",
                       "photons for each light (default: 200000, 1000000, 200000; quick: 20000)"},
     [FLAG_REPEATS] = {"repeats", 0, "N", "turns of each structure (default: 11; quick: 3)"},
