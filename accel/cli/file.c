@@ -78,11 +78,28 @@ static const char *read_open_file(int descriptor, accel_file *file)
     return trouble;
 }
 
+/* Without O_NONBLOCK a pipe would wait for its writer. */
+static int open_file(const char *path)
+{
+    return open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+}
+
+bool accel_file_there(const char *path, accel_error *error)
+{
+    uint64_t size;
+    const int descriptor = open_file(path);
+    if (descriptor < 0) {
+        return accel_file_fail(path, strerror(errno), error);
+    }
+    const char *trouble = why_not_a_file(descriptor, &size);
+    close(descriptor);
+    return trouble == NULL || accel_file_fail(path, trouble, error);
+}
+
 bool accel_file_read(accel_file *file, const char *path, accel_error *error)
 {
     *file = (accel_file){.path = path};
-    /* without O_NONBLOCK a pipe would wait for its writer */
-    const int descriptor = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    const int descriptor = open_file(path);
     if (descriptor < 0) {
         return accel_file_fail(path, strerror(errno), error);
     }

@@ -14,6 +14,9 @@ typedef struct accel_file {
     size_t size;
 } accel_file;
 
+/* Is it a regular file that can be read? Otherwise fills error->text. */
+bool accel_file_there(const char *path, accel_error *error);
+
 /* Reads a regular file. Otherwise fills error->text and holds nothing. */
 bool accel_file_read(accel_file *file, const char *path, accel_error *error);
 

@@ -5,6 +5,7 @@
  */
 #include "scene_build.h"
 
+#include "file.h"
 #include "words.h"
 
 #include <stdio.h>
@@ -88,6 +89,30 @@ static bool read_option(const accel_kind_info *info, const char *text, size_t le
     return true;
 }
 
+/* The position of a key in the table, or the number of options. */
+static size_t option_at(const accel_kind_info *info, const char *key)
+{
+    size_t i = 0;
+    while (i < info->option_count && strcmp(info->options[i].key, key) != 0) {
+        i++;
+    }
+    return i;
+}
+
+/* Scenes that have both a smallest and a largest size need them in order. */
+static bool in_order(const accel_kind_info *info, const double *values, accel_error *error)
+{
+    const size_t min = option_at(info, "min"), max = option_at(info, "max");
+    if (min == info->option_count || max == info->option_count || values[min] <= values[max]) {
+        return true;
+    }
+    snprintf(error->text, sizeof error->text,
+             "scene %s: min=%.17g is above max=%.17g; nothing was made", info->name, values[min],
+             values[max]);
+    return false;
+}
+
+/* Reads what follows the name: "" or ":key=value[,key=value]...". */
 static bool read_options(const accel_kind_info *info, const char *text, double *values,
                          accel_error *error)
 {
@@ -95,23 +120,21 @@ static bool read_options(const accel_kind_info *info, const char *text, double *
         values[i] = info->options[i].standard;
     }
     unsigned seen = 0;
-    for (;;) {
-        const size_t length = strcspn(text, ",");
+    while (*text != '\0') {
+        const size_t length = strcspn(++text, ",");
         if (!read_option(info, text, length, values, &seen, error)) {
             return false;
         }
-        if (text[length] == '\0') {
-            return true;
-        }
-        text += length + 1;
+        text += length;
     }
+    return in_order(info, values, error);
 }
 
 /* A name without dot and slash that is no file was meant as a built-in scene. */
 static bool looks_built_in(const char *name, size_t length)
 {
-    return access(name, F_OK) != 0 && length > 0 && memchr(name, '.', length) == NULL &&
-           memchr(name, '/', length) == NULL;
+    return access(name, F_OK) != 0 && (length > 0 || *name == '\0') &&
+           memchr(name, '.', length) == NULL && memchr(name, '/', length) == NULL;
 }
 
 static void say_unknown(const char *name, size_t length, accel_error *error)
@@ -127,39 +150,50 @@ static void say_unknown(const char *name, size_t length, accel_error *error)
              (int)(length > 100 ? 100 : length), name, nearest);
 }
 
-static bool run_generator(accel_loaded *out, const accel_generator *generator, const char *options,
-                          accel_error *error)
+/* What a SCENE means. */
+typedef struct meaning {
+    const accel_generator *generator; /* NULL: a file */
+    double values[MOST_OPTIONS];      /* of its options */
+} meaning;
+
+static bool understand(meaning *m, const char *name, accel_error *error)
 {
-    double values[MOST_OPTIONS];
-    if (*options != '\0' && !read_options(&generator->info, options + 1, values, error)) {
+    *error = (accel_error){.status = ACCEL_BAD_ARGUMENT};
+    const size_t length = strcspn(name, ":");
+    m->generator = find_generator(name, length);
+    if (m->generator != NULL) {
+        return read_options(&m->generator->info, name + length, m->values, error);
+    }
+    if (looks_built_in(name, length)) {
+        say_unknown(name, length, error);
         return false;
     }
-    for (size_t i = 0; *options == '\0' && i < generator->info.option_count; i++) {
-        values[i] = generator->info.options[i].standard;
-    }
-    if (generator->generate(out, values)) {
-        return true;
-    }
-    accel_unload_scene(out);
-    snprintf(error->text, sizeof error->text, "scene %s: out of memory; nothing was made",
-             generator->info.name);
-    error->status = ACCEL_NO_MEMORY;
-    return false;
+    return true;
+}
+
+bool accel_scene_understood(const char *name, accel_error *error)
+{
+    meaning m;
+    return understand(&m, name, error) && (m.generator != NULL || accel_file_there(name, error));
 }
 
 bool accel_load_scene(accel_loaded *out, const char *name, accel_load_progress *progress,
                       void *user, accel_error *error)
 {
     *out = (accel_loaded){0};
-    *error = (accel_error){.status = ACCEL_BAD_ARGUMENT};
-    const size_t length = strcspn(name, ":");
-    const accel_generator *generator = find_generator(name, length);
-    if (generator != NULL) {
-        return run_generator(out, generator, name + length, error);
-    }
-    if (looks_built_in(name, length)) {
-        say_unknown(name, length, error);
+    meaning m;
+    if (!understand(&m, name, error)) {
         return false;
     }
-    return accel_load_file(out, name, progress, user, error);
+    if (m.generator == NULL) {
+        return accel_load_file(out, name, progress, user, error);
+    }
+    if (m.generator->generate(out, m.values)) {
+        return true;
+    }
+    accel_unload_scene(out);
+    snprintf(error->text, sizeof error->text, "scene %s: out of memory; nothing was made",
+             m.generator->info.name);
+    error->status = ACCEL_NO_MEMORY;
+    return false;
 }

@@ -30,6 +30,11 @@ typedef void accel_load_progress(void *user, const char *phase);
 bool accel_load_scene(accel_loaded *out, const char *name, accel_load_progress *progress,
                       void *user, accel_error *error);
 
+/* Says whether `name` means a built-in scene, all of its options in range, or a file that can be
+ * read: for commands that take many scenes, before the first is measured. Loading may still fail.
+ * Otherwise fills error->text with one line. */
+bool accel_scene_understood(const char *name, accel_error *error);
+
 /* Frees what accel_load_scene made. */
 void accel_unload_scene(accel_loaded *loaded);
 

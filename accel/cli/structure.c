@@ -36,6 +36,11 @@ bool accel_scene_names_add(accel_scene_names *names, const char *name, const acc
                        ACCEL_MOST_SCENES);
         return false;
     }
+    accel_error error;
+    if (!accel_scene_understood(name, &error)) {
+        accel_complain(command, "%s", error.text);
+        return false;
+    }
     names->items[names->count++] = name;
     return true;
 }

@@ -35,7 +35,7 @@ typedef struct accel_scene_names {
     size_t count;
 } accel_scene_names;
 
-/* Adds one, or complains and returns false. */
+/* Adds one that can be made or read, or complains and returns false. */
 bool accel_scene_names_add(accel_scene_names *names, const char *name,
                            const accel_command *command);
 

@@ -112,6 +112,12 @@ static int check_request(const accel_command *command, const request *request, b
         return accel_complain(command, "SCENE and -o FILE are needed; usage: accel %s %s",
                               command->name, command->arguments);
     }
+    if (request->rays != NULL && (request->camera != NULL || request->size != NULL)) {
+        return accel_complain(command,
+                              "--rays takes the rays of a file: %s does not go with it; "
+                              "nothing was written",
+                              request->camera != NULL ? "--camera" : "--size");
+    }
     if (request->rays == NULL && !ends_with(request->output, ".exr") &&
         !ends_with(request->output, ".png")) {
         return accel_complain(command,

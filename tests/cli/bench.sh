@@ -40,5 +40,7 @@ complains "nosuch" bench one -a nosuch
 complains "no SCENE" bench
 complains "no kind of rays" bench one --rays primary,nosuch
 complains "nosuch.ply" bench nosuch.ply
+complains "nosuch.ply" bench one nosuch.ply # and nothing of the first is measured
+complains "soup: n=x is out of range" bench one soup:n=x
 complains "--count" bench one --count 0
 finish

@@ -7,6 +7,7 @@
 
 complains "no SCENE" lazy
 complains "nosuch.ply" lazy nosuch.ply -a linear
+complains "nosuch.ply" lazy one nosuch.ply
 complains "linear has no option" lazy one -a linear
 complains "--rays" lazy one --rays 0
 complains "--repeats" lazy one --repeats 1000

@@ -24,6 +24,8 @@ cat >rays.txt <<'RAYS'
 0,0,4,0.75,0.25,-1
 RAYS
 expect 0 trace one --rays rays.txt -o hits.txt
+complains "--camera does not go with it" trace one --rays rays.txt -o x.txt --camera 0,0,5:0,0,0:40
+complains "--size does not go with it" trace one --rays rays.txt -o x.txt --size 8x8
 [ "$(cat hits.txt)" = "miss
 0 0 4 0.25 0.5
 miss" ] || fail "hits are $(cat hits.txt)"
