@@ -26,17 +26,21 @@ static quad lesser(quad a, quad b)
     return a < b ? a : b;
 }
 
-/* Newton's steps from double's root: each doubles the bits. */
+/* Newton's steps from double's root: each doubles the bits. What is beyond double's range, as are
+ * squares of lengths, is scaled by an even power of two. */
 static quad root(quad x)
 {
-    if (!(x > 0))
-        return 0;
+    if (!(x > 0) || !(x < (quad)(double)INFINITY))
+        return x > 0 ? x : 0;
+    quad scale = 1;
+    for (; x > 0x1p1000; x *= 0x1p-1000)
+        scale *= 0x1p500;
+    for (; x < 0x1p-1000; x *= 0x1p1000)
+        scale *= 0x1p-500;
     quad y = sqrt((double)x);
-    if (!(y > 0))
-        return 0;
     for (int i = 0; i < 3; i++)
         y = (y + x / y) / 2;
-    return y;
+    return scale * y;
 }
 
 /* A triangle as the ray sees it: the ray is the line x = y = 0. */
@@ -155,7 +159,8 @@ bool exact_misses(const accel_ray *ray, const double *vertices)
 
 /* The library's discriminant r^2 - |f + (b / a) d|^2 is off by at most 16 u |f| (2 |nearest| + 16 u
  * |f|) + 4 u r^2 (each component of the nearest point by 8 u |f|), its product with a by 4 u of it;
- * t by what that moves the root, and by the roundings of c = |f|^2 - r^2 over the root. */
+ * t by what that moves the root, and by the roundings of c = |f|^2 - r^2 over the root. Of these
+ * lengths, which the library scales where they are far from 1, only t itself underflows. */
 void exact_sphere(const accel_ray *ray, const double *sphere, struct exact out[2])
 {
     quad ff = 0, a = 0, b = 0, nn = 0, f[3];
@@ -174,17 +179,20 @@ void exact_sphere(const accel_ray *ray, const double *sphere, struct exact out[2
     const quad doubt =
         safety * (16 * unit * size * (2 * root(nn) + 16 * unit * size) + 4 * unit * (r * r + nn));
     const quad half = root(absolute(disc) / a);
-    const quad span = half + root(doubt / a) + safety * 16 * unit * (absolute(b / a) + size);
+    const quad middle = b / a, margin = safety * tiny;
+    const quad span =
+        half + root(doubt / a) + safety * 16 * unit * (absolute(middle) + root(ff / a)) + margin;
     for (int i = 0; i < 2; i++) {
-        out[i] = (struct exact){NO_HIT, 0, 0, b / a - span, b / a + span};
-        if (absolute(disc) <= 2 * doubt)
+        const quad t = middle + (i ? half : -half);
+        out[i] = (struct exact){NO_HIT, 0, 0, middle - span, middle + span};
+        if (absolute(disc) <= 2 * doubt || (disc > 0 && absolute(t) > (quad)DBL_MAX))
             out[i].verdict = UNDECIDED;
         else if (disc > 0) {
             out[i].verdict = HIT;
-            out[i].t = b / a + (i ? half : -half);
+            out[i].t = t;
             out[i].off = doubt / (half * a) +
-                         safety * 16 * unit * (ff + r * r) / (a * (absolute(b / a) + half)) +
-                         safety * 16 * unit * (absolute(b / a) + half);
+                         safety * 16 * unit * (ff + r * r) / (a * (absolute(middle) + half)) +
+                         safety * 16 * unit * (absolute(middle) + half) + margin;
         }
     }
 }

@@ -278,10 +278,16 @@ static double volume_share(uint32_t depth)
     return ldexp(1.0, -(int)depth);
 }
 
+/* Reports progress after a look at some boxes. */
+static bool tick(struct grower *g, uint32_t looked_at)
+{
+    return build_step(g->build, looked_at, fmin(g->done, 1.0));
+}
+
 static bool finish(struct grower *g, uint32_t depth)
 {
     g->done += volume_share(depth);
-    return build_tick(g->build, fmin(g->done, 1.0));
+    return tick(g, SWEEP);
 }
 
 static bool make_leaf(struct grower *g, const struct task *t, uint32_t node, struct subtree *out)
@@ -317,7 +323,7 @@ static bool grow_half(struct grower *g, const struct task *t, const struct split
                          count[half], t->depth + 1,
                          t->failed,   t->budget * count[half] / ((double)count[0] + count[1])};
     *(half ? &child.box.lo[s->axis] : &child.box.hi[s->axis]) = s->plane;
-    if (!push_half(g, t, s, half, count[half]) || !grow(g, &child, out))
+    if (!push_half(g, t, s, half, count[half]) || !tick(g, t->count) || !grow(g, &child, out))
         return false;
     g->stack.count = begin;
     const struct slices slices = slices_of(g, &t->box, s->axis);

@@ -26,8 +26,9 @@
 #define NODE_COST 1.0
 #define PAIR_COST 0.5
 
-/* Bins per axis, the largest range whose items are sorted instead, and items between two ticks. */
-enum { BINS = 32, SWEEP = 24, TICK = 16384 };
+/* Bins per axis, the largest range whose items are sorted instead, items between two ticks, and
+ * those that could be looked at in the time that a leaf takes. */
+enum { BINS = 32, SWEEP = 24, TICK = 16384, LEAF_WORK = 8 };
 
 /* One primitive. */
 struct item {
@@ -108,9 +109,10 @@ static double chance(const struct grower *g, const accel_box *inner, const accel
 
 /* ---------------------------------------------------------------- one range ---- */
 
-static bool tick(struct grower *g, const struct item *at)
+static bool tick(struct grower *g, const struct item *at, uint32_t looked_at)
 {
-    return build_tick(g->build, (double)(at - g->items) / (double)g->build->a->prims.bounded.count);
+    return build_step(g->build, looked_at,
+                      (double)(at - g->items) / (double)g->build->a->prims.bounded.count);
 }
 
 static bool keys_differ(const struct range *r)
@@ -128,7 +130,7 @@ static bool measure(struct grower *g, struct range *r)
         const double key[3] = {key_of(r, item, 0), key_of(r, item, 1), key_of(r, item, 2)};
         box_add(&box, &item->box);
         box_add_point(&keys, key);
-        if (i % TICK == TICK - 1 && !tick(g, r->at))
+        if (i % TICK == TICK - 1 && !tick(g, r->at, TICK))
             return false;
     }
     r->box = box;
@@ -161,7 +163,7 @@ static bool fill_bins(struct grower *g, const struct range *r)
             bin->least = key < bin->least ? key : bin->least;
             bin->count++;
         }
-        if (i % TICK == TICK - 1 && !tick(g, r->at))
+        if (i % TICK == TICK - 1 && !tick(g, r->at, TICK))
             return false;
     }
     return true;
@@ -349,7 +351,7 @@ static bool make_leaf(struct grower *g, const struct range *r, struct subtree *o
 {
     const uint32_t first = (uint32_t)(r->at - g->items);
     *out = (struct subtree){{first, r->count}, r->box, leaf_cost(g, r->count), 0};
-    return tick(g, r->at);
+    return tick(g, r->at, LEAF_WORK + r->count);
 }
 
 /* Puts a node over two subtrees, or a leaf in its place if that costs less. */

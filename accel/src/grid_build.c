@@ -8,9 +8,6 @@
 
 #include <string.h>
 
-/* References that are made between two looks at the clock. */
-enum { TICK = 1 << 14 };
-
 /* One grid being built. */
 struct maker {
     struct build *build;     /* the build under way */
@@ -20,7 +17,6 @@ struct maker {
     double from, to;         /* progress of the whole */
     double done;             /* of the passes, in 0..3 */
     uint64_t total;          /* references */
-    size_t untimed;          /* references since the last look at the clock */
 };
 
 /* Does something for one cell that an item meets. */
@@ -101,8 +97,8 @@ static void cells_met(const struct maker *m, int k, double lo, double hi, uint32
     *last = j;
 }
 
-/* Acts on every cell that the item meets. */
-static inline void for_cells(struct maker *m, uint32_t ref, cell_action *action)
+/* Acts on every cell that the item meets; returns their number. */
+static inline size_t for_cells(struct maker *m, uint32_t ref, cell_action *action)
 {
     const accel_box *b = grid_item_box(&m->build->a->prims, m->pool, ref);
     const struct grid *g = m->grid;
@@ -118,7 +114,7 @@ static inline void for_cells(struct maker *m, uint32_t ref, cell_action *action)
                 action(m, row + x / GRID_BRICK, bit + x % GRID_BRICK, ref);
         }
     }
-    m->untimed += (size_t)(hi[0] - lo[0] + 1) * (hi[1] - lo[1] + 1) * (hi[2] - lo[2] + 1);
+    return (size_t)(hi[0] - lo[0] + 1) * (hi[1] - lo[1] + 1) * (hi[2] - lo[2] + 1);
 }
 
 static void mark_cell(struct maker *m, size_t brick, uint32_t bit, uint32_t ref)
@@ -139,21 +135,18 @@ static void fill_in(struct maker *m, size_t brick, uint32_t bit, uint32_t ref)
     m->pool->refs.at[--m->pool->starts.at[grid_slot(m->pool, brick, bit)]] = ref;
 }
 
-/* Looks at the clock now and then: after `left` items of a pass. */
-static bool tick(struct maker *m, size_t finished)
+/* Reports progress: `references` more, after `finished` items of a pass. */
+static inline bool tick(struct maker *m, size_t references, size_t finished)
 {
-    if (m->untimed < TICK)
-        return true;
-    m->untimed = 0;
     const double done = (m->done + (double)finished / (double)m->items.count) / 3.0;
-    return build_tick(m->build, m->from + (m->to - m->from) * done);
+    return build_step(m->build, references, m->from + (m->to - m->from) * done);
 }
 
 static inline bool pass(struct maker *m, cell_action *action)
 {
     for (size_t i = m->items.count; i-- > 0;) {
-        for_cells(m, m->items.at[i], action);
-        if (!tick(m, m->items.count - i))
+        const size_t references = for_cells(m, m->items.at[i], action);
+        if (!tick(m, references, m->items.count - i))
             return false;
     }
     m->done += 1.0;
@@ -203,8 +196,8 @@ static bool mark_until(struct maker *m, double budget)
 {
     m->total = 0;
     for (size_t i = 0; i < m->items.count && (double)m->total <= budget; i++) {
-        for_cells(m, m->items.at[i], mark_cell);
-        if (!tick(m, i))
+        const size_t references = for_cells(m, m->items.at[i], mark_cell);
+        if (!tick(m, references, i))
             return false;
     }
     m->done = 1.0;

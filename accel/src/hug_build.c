@@ -17,6 +17,9 @@ enum { CROWDED = 8 };
 /* References in all, in multiples of the primitives, up to which cells become grids. */
 enum { BUDGET = 16 };
 
+/* Primitives that could be looked at in the time that a small grid takes. */
+enum { GRID_WORK = 64 };
+
 /* A cell that becomes a grid. */
 struct job {
     struct grid_plan plan; /* of the grid */
@@ -352,7 +355,7 @@ static bool run(struct builder *b)
         return false;
     build_phase(build, "grids");
     for (size_t i = 0; i + 1 < b->begin.count; i++)
-        if (!build_grid(b, i))
+        if (!build_grid(b, i) || !build_step(build, GRID_WORK, b->to))
             return false;
     grid_pool_trim(&build->a->memory, &b->h->pool);
     describe(b);

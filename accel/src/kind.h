@@ -38,6 +38,7 @@ struct build {
     const char *phase;           /* name of the phase under way */
     struct timespec phase_start; /* when it began */
     struct timespec last_tick;   /* when the progress hook was last called */
+    size_t untold;               /* primitives looked at since the last question for the time */
     uint32_t sizes[BUILD_SIZES]; /* how many bounded primitives have a longest side with this binary
                                     exponent */
 };
@@ -88,6 +89,18 @@ void build_phase(struct build *build, const char *name);
 /* Tells the progress hook how far the phase is, in 0..1, at most every few milliseconds; call it
  * often. False if the build is cancelled. */
 bool build_tick(struct build *build, double done);
+
+/* The same in small steps: after each, tell how many primitives it looked at. To ask for the time
+ * takes as long as to make a small leaf, so that is done once for thousands. */
+static inline bool build_step(struct build *build, size_t looked_at, double done)
+{
+    enum { PRIMITIVES_A_TICK = 16384 };
+    build->untold += looked_at;
+    if (build->untold < PRIMITIVES_A_TICK)
+        return true;
+    build->untold = 0;
+    return build_tick(build, done);
+}
 
 /* Notes that memory ran out, which the failed allocation left in a->memory. Returns false. */
 bool build_no_memory(struct build *build);

@@ -39,6 +39,10 @@ enum { LOOKAHEAD = 1 };
  * first ray pays for those only and the others do not go from part to part at every step. */
 enum { SHARE_FOR_LATER = 64 };
 
+/* Primitives looked at between two chances to report progress, and those that could be looked at in
+ * the time that a leaf takes. */
+enum { CHUNK = 16384, LEAF_WORK = 8 };
+
 /* What is the same for all cells of one octree. */
 struct grower {
     struct build *build;
@@ -51,7 +55,6 @@ struct grower {
     uint8_t children_in[64]; /* by halves */
     uint64_t one_each[64];   /* by halves: 1 in the byte of each child */
     double done, from, to;   /* volume finished, as a share of the root; progress range */
-    uint32_t ticks;          /* leaves made, for progress */
     uint32_t later;          /* cells of no more primitives are left for later; 0: none is */
     const accel_box *tree;   /* the tree's root, if cells are left for later */
     uint32_t depth;          /* deepest leaf so far */
@@ -120,17 +123,29 @@ static void place_planes(const struct task *t, double plane[3])
     }
 }
 
-/* Notes each primitive's halves. Returns those that all of them meet. */
-static uint32_t note_halves(struct grower *g, const struct task *t, const double plane[3])
+/* Reports progress after a look at some primitives. */
+static inline bool tick(struct grower *g, uint32_t looked_at)
+{
+    return build_step(g->build, looked_at, g->from + (g->to - g->from) * fmin(g->done, 1.0));
+}
+
+/* Notes each primitive's halves, and those that all of them meet. */
+static bool note_halves(struct grower *g, const struct task *t, const double plane[3],
+                        uint32_t *all)
 {
     const uint32_t *ids = g->stack.at + t->begin;
-    uint32_t all = 0x3f;
-    for (uint32_t i = 0; i < t->count; i++) {
-        const uint32_t halves = halves_of(&g->box[ids[i]], plane);
-        g->children[i] = (uint8_t)halves;
-        all &= halves;
+    *all = 0x3f;
+    for (uint32_t i = 0; i < t->count;) {
+        const uint32_t first = i, end = t->count - i > CHUNK ? i + CHUNK : t->count;
+        for (; i < end; i++) {
+            const uint32_t halves = halves_of(&g->box[ids[i]], plane);
+            g->children[i] = (uint8_t)halves;
+            *all &= halves;
+        }
+        if (!tick(g, end - first))
+            return false;
     }
-    return all;
+    return true;
 }
 
 /* Turns halves into children and counts them: eight counters of a byte side by side, emptied before
@@ -165,21 +180,26 @@ static double split_cost(const struct grower *g, const struct split *s)
     return NODE_COST + s->chance * (LEAF_COST * s->filled + g->test_cost * s->sum);
 }
 
-/* Places the planes, except those that every primitive would lie on, and counts the children. */
-static void try_split(struct grower *g, const struct task *t, struct split *s)
+/* Places the planes, except those that every primitive would lie on, and counts the children.
+ * False: cancelled. */
+static bool try_split(struct grower *g, const struct task *t, struct split *s)
 {
+    uint32_t all;
     *s = (struct split){.sum = 0};
     place_planes(t, s->plane);
-    const uint32_t all = note_halves(g, t, s->plane), across = all & all >> 3;
+    if (!note_halves(g, t, s->plane, &all))
+        return false;
+    const uint32_t across = all & all >> 3;
     for (int k = 0; k < 3; k++)
         if (across >> k & 1)
             s->plane[k] = (double)INFINITY;
-    if (across)
-        note_halves(g, t, s->plane);
+    if (across && !note_halves(g, t, s->plane, &all))
+        return false;
     count_children(g, t, s);
     const accel_box first = child_box(&t->box, s->plane, 0);
     s->chance = box_chance(&first, &t->box);
     s->pays = split_cost(g, s) < leaf_cost(g, t->count);
+    return true;
 }
 
 /* Is the cell a leaf before any split is tried? */
@@ -190,10 +210,9 @@ static bool small_enough(const struct grower *g, const struct task *t)
     return t->count <= leaf || t->depth >= depth;
 }
 
-/* Finds a split. False if there is none that may be made. */
-static bool find_split(struct grower *g, struct task *t, struct split *s)
+/* May the split that was tried be made? */
+static bool may_split(struct grower *g, struct task *t, const struct split *s)
 {
-    try_split(g, t, s);
     if (isinf(s->plane[0]) && isinf(s->plane[1]) && isinf(s->plane[2]))
         return false;
     if (s->sum > t->budget) {
@@ -216,15 +235,6 @@ static bool too_large(const struct grower *g, const char *what)
     return false;
 }
 
-/* Reports progress. To ask for the time takes as long as to make a small leaf. */
-static bool tick(struct grower *g)
-{
-    enum { LEAVES_A_TICK = 32 };
-    if (++g->ticks % LEAVES_A_TICK != 0)
-        return true;
-    return build_tick(g->build, g->from + (g->to - g->from) * fmin(g->done, 1.0));
-}
-
 static bool make_leaf(struct grower *g, const struct task *t, struct octree_cell *cell)
 {
     struct memory *m = &g->build->a->memory;
@@ -238,7 +248,7 @@ static bool make_leaf(struct grower *g, const struct task *t, struct octree_cell
     g->pool->leaves++;
     g->depth = t->depth > g->depth ? t->depth : g->depth;
     g->done += t->volume;
-    return tick(g);
+    return tick(g, LEAF_WORK + t->count);
 }
 
 /* Primitives of the cell that no other cell has as well: those whose box begins in it. */
@@ -271,7 +281,7 @@ static bool leave_for_later(struct grower *g, const struct task *t, struct octre
                                                 .failed = t->failed,
                                                 .budget = t->budget};
     *cell = (struct octree_cell){(uint32_t)number, OCTREE_LATER};
-    return true;
+    return tick(g, t->count);
 }
 
 /* Pushes the ids of each child, one run after the other. */
@@ -285,28 +295,41 @@ static bool push_children(struct grower *g, const struct task *t, const struct s
         next[c] = at;
         at += s->count[c];
     }
-    for (uint32_t i = 0; i < t->count; i++)
-        for (uint32_t mask = g->children[i]; mask; mask &= mask - 1)
-            g->stack.at[next[__builtin_ctz(mask)]++] = g->stack.at[t->begin + i];
+    for (uint32_t i = 0; i < t->count;) {
+        const uint32_t first = i, end = t->count - i > CHUNK ? i + CHUNK : t->count;
+        for (; i < end; i++)
+            for (uint32_t mask = g->children[i]; mask; mask &= mask - 1)
+                g->stack.at[next[__builtin_ctz(mask)]++] = g->stack.at[t->begin + i];
+        if (!tick(g, end - first))
+            return false;
+    }
     return true;
 }
 
-/* What a subtree adds to the pool is taken back by going to its mark. */
+/* What a subtree adds is taken back by going to its mark. */
 struct mark {
-    size_t words, refs, nodes, leaves;
+    size_t words, refs, nodes, leaves, stacked;
+    double done;
+    uint32_t depth;
+    bool refused;
 };
 
-static struct mark mark(const struct octree_pool *p)
+static struct mark mark(const struct grower *g)
 {
-    return (struct mark){p->words.count, p->refs.count, p->nodes, p->leaves};
+    const struct octree_pool *p = g->pool;
+    return (struct mark){p->words.count, p->refs.count, p->nodes, p->leaves,
+                         g->stack.count, g->done,       g->depth, g->refused};
 }
 
-static void take_back(struct octree_pool *p, struct mark m)
+static void take_back(struct grower *g, const struct mark *m)
 {
-    p->words.count = m.words;
-    p->refs.count = m.refs;
-    p->nodes = m.nodes;
-    p->leaves = m.leaves;
+    g->pool->words.count = m->words;
+    g->pool->refs.count = m->refs;
+    g->pool->nodes = m->nodes;
+    g->pool->leaves = m->leaves;
+    g->done = m->done;
+    g->depth = m->depth;
+    g->refused = m->refused;
 }
 
 static bool grow(struct grower *g, struct task *t, struct octree_cell *cell, double *cost);
@@ -372,19 +395,18 @@ static bool grow(struct grower *g, struct task *t, struct octree_cell *cell, dou
         return make_leaf(g, t, cell);
     if (t->sure && t->count <= g->later)
         return leave_for_later(g, t, cell);
-    if (!find_split(g, t, &s))
+    if (!try_split(g, t, &s))
+        return false;
+    if (!may_split(g, t, &s))
         return make_leaf(g, t, cell);
-    const struct mark before = mark(g->pool);
-    const size_t stacked = g->stack.count;
-    const double done = g->done;
+    const struct mark before = mark(g);
     double inner;
     if (!push_children(g, t, &s) || !make_node(g, &s, cell) ||
         !grow_children(g, t, &s, cell, &inner))
         return false;
-    g->stack.count = stacked;
+    g->stack.count = before.stacked;
     if (isnan(g->rule.leaf) && !s.pays && inner >= *cost) {
-        take_back(g->pool, before);
-        g->done = done;
+        take_back(g, &before);
         return make_leaf(g, t, cell);
     }
     *cost = inner;

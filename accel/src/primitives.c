@@ -396,6 +396,10 @@ bool primitives_move_triangles(struct build *build, const uint32_t *ids, size_t 
     for (size_t i = 0; i < count; i++) {
         const struct geometry *g = primitives_geometry(p, ids[i]);
         memcpy(moved + 9 * i, g->data + 9 * (size_t)(ids[i] - g->first), size);
+        if (i % 4096 == 0 && !build_tick(build, (double)i / (double)count)) {
+            memory_resize(&build->a->memory, moved, count * size, 0);
+            return false;
+        }
     }
     for (uint32_t g = 0; g < p->geometry_count; g++)
         free_data(&build->a->memory, &p->geometry[g]);

@@ -4,7 +4,7 @@
 /* Holds the product of two doubles exactly, with room in the exponent for a product of three. */
 #if defined(__SIZEOF_FLOAT128__)
 typedef __float128 wide;
-#elif LDBL_MANT_DIG >= 106
+#elif LDBL_MANT_DIG >= 106 && LDBL_MAX_EXP >= 4096
 typedef long double wide;
 #else
 #error "accel needs a floating-point type of 106 bits or more: __float128 or long double"
@@ -69,10 +69,19 @@ static bool tiny_missed(const struct sheared *s)
     return (e[0] < 0 || e[1] < 0 || e[2] < 0) && (e[0] > 0 || e[1] > 0 || e[2] > 0);
 }
 
-/* The same with exact products. */
-static bool hit_wide(const struct sheared *s, double *t, double *u, double *v)
+/* A corner's distance along the ray in units of its direction: beyond double's range where the
+ * direction is tiny, also of triangles that the ray hits within it. */
+static wide along(const struct query *q, const double *corner, double z)
 {
-    wide e[3];
+    const int kz = q->axis[2];
+    return isfinite(z) ? (wide)z : (wide)(corner[kz] - q->org[kz]) / (wide)q->dir[kz];
+}
+
+/* The same with exact products. */
+static bool hit_wide(const struct query *q, const double *vertices, const struct sheared *s,
+                     double *t, double *u, double *v)
+{
+    wide e[3], scaled = 0;
     for (int i = 0; i < 3; i++) {
         const int j = (i + 1) % 3, k = (i + 2) % 3;
         e[i] = (wide)s->x[k] * s->y[j] - (wide)s->y[k] * s->x[j];
@@ -82,7 +91,9 @@ static bool hit_wide(const struct sheared *s, double *t, double *u, double *v)
     const wide det = e[0] + e[1] + e[2];
     if (!(det < 0 || det > 0))
         return false;
-    *t = (double)((e[0] * s->z[0] + e[1] * s->z[1] + e[2] * s->z[2]) / det);
+    for (int i = 0; i < 3; i++)
+        scaled += e[i] * along(q, vertices + 3 * i, s->z[i]);
+    *t = (double)(scaled / det);
     *u = (double)(e[1] / det);
     *v = (double)(e[2] / det);
     return true;
@@ -104,7 +115,7 @@ bool triangle_hit(const struct query *q, const double *vertices, double *t, doub
     const double det = e0 + e1 + e2;
     const double scaled = e0 * s.z[0] + e1 * s.z[1] + e2 * s.z[2];
     if (e0 == 0 || e1 == 0 || e2 == 0 || !safe(det) || !safe(scaled))
-        return !collapsed(&s) && !tiny_missed(&s) && hit_wide(&s, t, u, v);
+        return !collapsed(&s) && !tiny_missed(&s) && hit_wide(q, vertices, &s, t, u, v);
     *t = scaled / det;
     *u = e1 / det;
     *v = e2 / det;
