@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=bash
-# Sourced by scenes/demo.sh, scenes/fetch.sh and tests/run.sh: installs what is missing, builds.
+# Sourced by the scripts of scenes/ and tests/: installs what is missing, builds.
 #
 #     . scenes/prepare.sh
 #     prepare demo        what the demo needs: the library, the command, both POV-Rays

@@ -14,8 +14,8 @@
 
 #ifndef (Form) #declare Form = 0; #end
 
-#if (!file_exists("teapots.inc"))
-    #error "teapots.inc is not in the library path: run scenes/fetch.sh teapots, add +Lbuild/scenes\n"
+#if (!file_exists("teapots.inc") | !file_exists("teapots-corners.inc"))
+    #error "teapots*.inc are not in the library path: run scenes/fetch.sh teapots, add +Lbuild/scenes\n"
 #end
 
 #include "illumination.inc"

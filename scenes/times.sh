@@ -40,7 +40,9 @@ trace() {
         END { print s }' >>"$list"
 }
 
-median() { sort -n "$1" | awk '{ v[NR] = $1 } END { print v[int((NR + 1) / 2)] }'; }
+median() {
+    sort -n "$1" | awk '{ v[NR] = $1 } END { print (v[int((NR + 1) / 2)] + v[int(NR / 2) + 1]) / 2 }'
+}
 
 # turns SCENE ARGUMENT...: the scene with every contender, `runs` times in turn.
 turns() {

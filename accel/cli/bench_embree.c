@@ -77,7 +77,8 @@ static struct RTCRay convert(const peer *p, const accel_ray *ray)
                            .dir_x = (float)d[0],
                            .dir_y = (float)d[1],
                            .dir_z = (float)d[2],
-                           .tnear = leaves_surface(ray) ? (float)(p->start / length) : (float)ray->tmin,
+                           .tnear =
+                               leaves_surface(ray) ? (float)(p->start / length) : (float)ray->tmin,
                            .tfar = (float)ray->tmax,
                            .mask = UINT32_MAX};
 }

@@ -15,18 +15,9 @@
 #include <unistd.h>
 
 static const accel_command *const commands[] = {
-    &accel_command_kinds,
-    &accel_command_info,
-    &accel_command_check,
-    &accel_command_trace,
-    &accel_command_diff,
-    &accel_command_export,
-    &accel_command_bench,
-    &accel_command_lazy,
-    &accel_command_clusters,
-    &accel_command_photons,
-    &accel_command_tables,
-    &accel_command_report,
+    &accel_command_kinds,    &accel_command_info,    &accel_command_check,  &accel_command_trace,
+    &accel_command_diff,     &accel_command_export,  &accel_command_bench,  &accel_command_lazy,
+    &accel_command_clusters, &accel_command_photons, &accel_command_tables, &accel_command_report,
 };
 
 enum { COMMANDS = sizeof commands / sizeof commands[0] };

@@ -107,8 +107,9 @@ static bool in_order(const accel_kind_info *info, const double *values, accel_er
         return true;
     }
     snprintf(error->text, sizeof error->text,
-             "scene %s: min=%.17g is above max=%.17g; nothing was made", info->name, values[min],
-             values[max]);
+             "scene %s: min=%g%s is above max=%g%s; nothing was made", info->name, values[min],
+             values[min] == info->options[min].standard ? " (the default)" : "", values[max],
+             values[max] == info->options[max].standard ? " (the default)" : "");
     return false;
 }
 

@@ -18,7 +18,8 @@ enum { FLAG_TABLE, FLAG_QUICK, FLAG_PHOTONS, FLAG_REPEATS, FLAG_THREADS, FLAG_CS
 
 static const accel_flag flags[] = {
     [FLAG_TABLE] = {"table", 0, "N", "only table 1, 2 or 3"},
-    [FLAG_QUICK] = {"quick", 0, NULL, "fewer photons, turns and gaps: seconds instead of ten minutes"},
+    [FLAG_QUICK] = {"quick", 0, NULL,
+                    "fewer photons, turns and gaps: seconds instead of ten minutes"},
     [FLAG_PHOTONS] = {"photons", 'n', "N",
                       "photons for each light (default: 200000, 1000000, 200000; quick: 20000)"},
     [FLAG_REPEATS] = {"repeats", 0, "N", "turns of each structure (default: 11; quick: 3)"},
@@ -264,7 +265,8 @@ static int run(const accel_command *command, int argc, char **argv)
 const accel_command accel_command_tables = {
     .name = "tables",
     .arguments = "[OPTION]...",
-    .summary = "the two tables of the paper on hierarchies of octrees, its figures beside ours",
+    .summary =
+        "the tables of the paper on hierarchies of octrees, and one more, its figures beside ours",
     .details =
         "Times photon illumination (see 'accel photons'). Structures take turns; a line shows\n"
         "the median of its turns divided by that of the hoo it is compared with, half the\n"

@@ -87,7 +87,7 @@ static bool order_clusters(struct parts *p, struct clustering *c)
     return fine;
 }
 
-/* The cluster of each piece: a unit, or a part where primitives are loose. */
+/* The cluster of each piece: a unit with a given connectivity, else a part. */
 static bool find_homes(struct parts *p, struct ids *home)
 {
     const size_t pieces = p->units.count > 0 ? p->units.count : p->part.count;

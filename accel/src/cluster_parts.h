@@ -21,10 +21,10 @@ struct unit {
 struct parts {
     struct build *build;         /* whose memory and progress it is */
     struct sizes sizes;          /* of the scene */
-    ARRAY_OF(struct unit) units; /* none where primitives are loose */
+    ARRAY_OF(struct unit) units; /* with a given connectivity only */
     ARRAY_OF(uint32_t)
-    piece_of;                      /* by position in the list of bounded ids: its unit, or its
-                                      part where primitives are loose */
+    piece_of;                      /* by position in the list of bounded ids: with a given
+                                      connectivity its unit, else its part */
     ARRAY_OF(struct cluster) part; /* by piece or component; `first` is its union-find parent */
     uint32_t crumb;                /* parts of fewer primitives are crumbs */
     uint64_t looks;                /* at cells and what is in them, so far */

@@ -81,7 +81,7 @@ static wide along(const struct query *q, const double *corner, double z)
 static bool hit_wide(const struct query *q, const double *vertices, const struct sheared *s,
                      double *t, double *u, double *v)
 {
-    wide e[3], scaled = 0;
+    wide e[3], z[3];
     for (int i = 0; i < 3; i++) {
         const int j = (i + 1) % 3, k = (i + 2) % 3;
         e[i] = (wide)s->x[k] * s->y[j] - (wide)s->y[k] * s->x[j];
@@ -92,8 +92,8 @@ static bool hit_wide(const struct query *q, const double *vertices, const struct
     if (!(det < 0 || det > 0))
         return false;
     for (int i = 0; i < 3; i++)
-        scaled += e[i] * along(q, vertices + 3 * i, s->z[i]);
-    *t = (double)(scaled / det);
+        z[i] = along(q, vertices + 3 * i, s->z[i]);
+    *t = (double)((e[0] * z[0] + e[1] * z[1] + e[2] * z[2]) / det);
     *u = (double)(e[1] / det);
     *v = (double)(e[2] / det);
     return true;

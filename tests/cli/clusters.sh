@@ -26,6 +26,8 @@ awk -F, 'NR > 1 && !($2 > 0 && $3 > 0 && $5 > 0 && $6 > $5) { exit 1 }' figures.
     fail "a figure is missing"
 grep -qE '^cubes:side=16 +98304 +2 +1 ' out || fail "the cubes are not two clusters: $(cat out)"
 
-expect 2 clusters soup:n=10 nosuch --csv other.csv
+echo x >bad.off
+expect 2 clusters soup:n=10 bad.off --csv other.csv # found to be no mesh after the first is done
+grep -q '^soup:n=10 ' out || fail "the first scene was not measured"
 [ ! -e other.csv ] || fail "a failed run leaves its file"
 finish

@@ -49,6 +49,18 @@ printf 'v 0 0 0\nv 1 0 0\nv 0 0 -1\nv 1 0 0\nv 1 0 -1\nv 0 0 -1\nf 1 2 3\nf 4 5 
 expect 0 export square.obj -o square.inc
 lines square.inc '^<-?0.00000,1.00000,-?0.00000>,?$' 6
 
+# Two geometries: every row in its place.
+printf 'o a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\no b\nv 2 0 0\nv 3 0 0\nv 2 1 0\nv 3 1 0\nf 4 5 6\nf 6 5 7\n' >two.obj
+expect 0 export two.obj -o two.inc --as triangles
+diff - <(tail -n +2 two.inc) <<'ROWS' || fail "the corners of two geometries are not as they should be"
+#declare First = array[3] {0,1,3}
+#declare Corners = array[3][3] {
+{<0,0,0>,<1,0,0>,<0,1,0>},
+{<2,0,0>,<3,0,0>,<2,1,0>},
+{<2,1,0>,<3,0,0>,<3,1,0>}
+}
+ROWS
+
 complains "geometry 0 is not of triangles" export spheres:n=5 -o x.inc
 complains "unknown form 'mesh'" export one.obj -o x.inc --as mesh
 complains "SCENE and -o FILE.inc are needed" export one.obj

@@ -77,12 +77,13 @@ typedef enum accel_status {
     ACCEL_BAD_ARGUMENT, /* a NULL, a bad stride, an index past its vertices */
     ACCEL_BAD_CONFIG,   /* the config string: unknown kind or key, repeat, range, trailing text */
     ACCEL_NO_MEMORY,    /* the allocator said no */
-    ACCEL_TOO_LARGE,    /* more than 2^32 - 2 primitives or references; 2^24 - 2 with 32 bits */
-    ACCEL_CANCELLED,    /* the progress hook said stop */
-    ACCEL_BROKEN        /* accel_validate found a broken invariant: a bug in the library */
+    ACCEL_TOO_LARGE, /* more than 2^32 - 2 primitives (2^24 - 2 with 32 bits), 2^32 - 1 references
+                      */
+    ACCEL_CANCELLED, /* the progress hook said stop */
+    ACCEL_BROKEN     /* accel_validate found a broken invariant: a bug in the library */
 } accel_status;
 
-/* One line, lower case, no full stop: where, what was found, what is allowed, what happened. */
+/* One line: where, what was found, what is allowed, what happened. */
 typedef struct accel_error {
     accel_status status;
     char text[500];
@@ -225,8 +226,9 @@ typedef struct accel_hooks {
      * lazy structure called by queries too, from many threads at the same time: it must be
      * thread-safe, and may not query that structure. */
     void *(*resize)(void *user, void *old, size_t from, size_t to);
-    /* Called at least about every 10 ms of a build with the name of the phase and its done part
-     * in 0..1; return false to cancel. Never called by queries. */
+    /* Called about every 10 ms of a build, or once in each pass over the primitives of a large cell
+     * where that takes longer (a tenth of a second at 2 million), with the name of the phase and
+     * its done part in 0..1; return false to cancel. Never called by queries. */
     bool (*progress)(void *user, const char *phase, double done);
     /* First rays that will come, such as every so many-th of a camera, `pilot_count` of them; of
      * more than 256 every so many-th is taken. The kind "auto" counts what they, and rays that go
@@ -332,7 +334,8 @@ typedef struct accel_info {
     uint64_t nodes;      /* inner nodes */
     uint64_t leaves;     /* leaves or cells that hold something */
     uint64_t references; /* entries in all leaves together */
-    uint32_t depth;      /* deepest leaf; the root has depth 0 */
+    uint32_t depth;      /* deepest leaf; the root has depth 0; hoo: deepest in its tree of boxes
+                          * and deepest in an octree together */
     uint64_t bytes;      /* held now */
     uint64_t peak_bytes; /* held at most during accel_build */
     /* Of a lazy structure; 0 of others, which are built as a whole. Nodes, leaves, references,
