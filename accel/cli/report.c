@@ -15,7 +15,7 @@ static const accel_flag flags[] = {
                      "folder to make; a former report there is replaced, nothing else"},
     [FLAG_QUICK] = {"quick", 0, NULL, "fewer rays, photons and sizes: less than two minutes"},
     [FLAG_MINUTES] = {"minutes", 0, "M",
-                      "about as long, 0..1440 (default: 60); 0: the least counts"},
+                      "at most about as long, 0..1440 (default: 60); 0: the least counts"},
     [FLAG_ONLY] = {"only", 0, "PART", "of exact, cases, light, choice, size (default: all)"},
 };
 
@@ -101,7 +101,7 @@ static int run_request(const accel_command *command, const request *q, bool quie
         return accel_complain(command, "%s", error.text);
     }
     if (q->minutes > 0.0) {
-        printf("about %.0f %s; %s/index.html appears at the end\n",
+        printf("at most about %.0f %s; %s/index.html appears at the end\n",
                q->minutes < 2.0 ? 60.0 * q->minutes : q->minutes,
                q->minutes < 2.0 ? "seconds" : "minutes", q->output);
         fflush(stdout);
