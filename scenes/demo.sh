@@ -51,6 +51,8 @@ parse_arguments() {
         esac
         shift
     done
+    [ "$width" -le 65536 ] && [ "$height" -le 65536 ] && [ $((width * height)) -le $((1 << 26)) ] ||
+        bad_usage "--size ${width}x$height: 65536 a side and 2^26 pixels are allowed"
     [ "${#configs[@]}" -gt 0 ] || configs=(hoo)
     [ "${#scenes[@]}" -gt 0 ] || scenes=(clustered cubes teapots)
 }
@@ -109,7 +111,7 @@ time_both() {
         trace_seconds "$name.stock.log" >>"$name.stock.times"
         progress "$scene, $config: run $run of $runs, our POV-Ray"
         must_render "$name.ours.log" build/povray-accel "scenes/$scene.ini" "${file[0]}" \
-            Bounding_Method=3 Accelerator="$config" +O"build/demo/$scene-accel.${file[1]}"
+            Bounding_Method=3 Accelerator="$config" +O"build/demo/$ours.${file[1]}"
         trace_seconds "$name.ours.log" >>"$name.ours.times"
     done
     stock_time=$(median <"$name.stock.times")
@@ -127,10 +129,10 @@ judge_pixels() {
         must_render "$name.linear.log" povray "scenes/$scene.ini" -MB +FP16 +SC"$column" \
             +EC"$column" +SR"$row" +ER"$row" +O"build/demo/$scene-linear.ppm"
         whose="neither's: $(pixel_of "$name-linear.ppm" "$pixel")"
-        for side in stock accel; do
-            cmp -s <(pixel_of "$name-linear.ppm" "$pixel") <(pixel_of "$name-$side.ppm" "$pixel") &&
-                whose="that of $side"
-        done
+        cmp -s <(pixel_of "$name-linear.ppm" "$pixel") <(pixel_of "$name-stock.ppm" "$pixel") &&
+            whose="that of stock"
+        cmp -s <(pixel_of "$name-linear.ppm" "$pixel") <(pixel_of "$demo/$ours.ppm" "$pixel") &&
+            whose="that of accel"
         notes+=("$scene: pixel $column,$row differs; stock's linear search (-MB) gives $whose")
         [ "$whose" = "that of accel" ] || failed=1
     done
@@ -157,9 +159,11 @@ verify() {
 # compare SCENE CONFIG: one row of the table.
 compare() {
     local scene=$1 config=$2 differing
+    ours=$scene-accel # our picture; with several configs each has its own
+    [ "${#configs[@]}" -eq 1 ] || ours+=-${config//[^[:alnum:]]/-}
     time_both "$scene" "$config"
     verify "$scene" "$config"
-    mapfile -t differing < <(different_pixels "$demo/$scene-stock.ppm" "$demo/$scene-accel.ppm")
+    mapfile -t differing < <(different_pixels "$demo/$scene-stock.ppm" "$demo/$ours.ppm")
     progress "$scene, $config: ${#differing[@]} pixels differ, $difference_count hits differ"
     [ ! -t 1 ] || say
     judge_pixels "$scene" "${differing[@]:0:5}"
@@ -170,7 +174,7 @@ compare() {
             ratio = ours > 0 ? sprintf("%.2f", stock / ours) : "-"
             printf "%-10s %-14s %9d %9d %9d %9d %8.3f %8.3f %7s",
                 scene, kind, rays, judged, hits, pixels, stock, ours, ratio }')")
-    written+=("build/demo/$scene-stock.png" "build/demo/$scene-accel.png")
+    written+=("build/demo/$scene-stock.png" "build/demo/$ours.png")
 }
 
 # trace_hits SCENE NAME CONFIG: hits of the command as OpenEXR and PNG; a row of the table where
@@ -190,11 +194,20 @@ trace_hits() {
     [ "$agree" -eq 1 ] || { failed=1 && cat "$demo/$name.hits.log" >&2; }
 }
 
+# POV-Ray leaves the state of an unfinished picture behind.
+interrupted() {
+    rm -f "$demo"/*.pov-state
+    printf '\ndemo.sh: interrupted\n' >&2
+    exit 130
+}
+
 main() {
     parse_arguments "$@"
     prepare demo
+    check_configs "${configs[@]}"
     demo=$build/demo
     mkdir -p "$demo"
+    trap interrupted INT TERM
     rows=() written=() notes=() failed=0
     local scene config
     for scene in "${scenes[@]}"; do
@@ -217,6 +230,7 @@ main() {
     printf '%s\n' "${rows[@]}"
     say
     [ "${#notes[@]}" -eq 0 ] || printf '%s\n' "${notes[@]}" ''
+    mapfile -t written < <(printf '%s\n' "${written[@]}" | awk '!seen[$0]++')
     say "Written:" "${written[@]}"
     exit "$failed"
 }

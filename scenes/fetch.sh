@@ -108,7 +108,10 @@ for what in "$@"; do
     case $what in
     teapots | museum | dragon | all) ;;
     --help | -h) usage; exit 0 ;;
-    *) usage >&2; die "$what: not known; teapots, museum, dragon and all are" ;;
+    *)
+        echo "fetch.sh: $what: not known; teapots, museum, dragon and all are" >&2
+        exit 2
+        ;;
     esac
 done
 [ $# -gt 0 ] || set -- all

@@ -124,6 +124,15 @@ build_accel() {
     step "library and command" cmake --build "$build" -j "$(nproc)"
 }
 
+# check_configs CONFIG...: ends with one line and exit code 2 if one names no structure.
+check_configs() {
+    local config
+    for config in "$@"; do
+        [ -n "$config" ] || { echo "accel: '' is no structure; build/accel kinds lists them" >&2 && exit 2; }
+        "$build/accel" info one -a "$config" --quiet >/dev/null || exit 2
+    done
+}
+
 prepare() {
     local packages
     mapfile -t packages < <("$root/povray-adapter/build.sh" --packages | tr -s ' \n' '\n')

@@ -28,6 +28,7 @@ configs=("$@")
 [ $# -gt 0 ] || configs=(hoo octree hug grid bsp bvh auto)
 [ -x "$build/povray-accel" ] || die "no build/povray-accel; ./scenes/demo.sh builds it"
 install_missing povray povray-includes povray-examples
+check_configs "${configs[@]}"
 times=$build/times
 mkdir -p "$times"
 

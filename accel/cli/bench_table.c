@@ -133,8 +133,8 @@ static void note_regret(accel_bench_output *out, const accel_bench *b)
     }
     const double regret = fmax(1.0, chosen_seconds / best_seconds);
     if (out->table) {
-        printf("auto: chose %s, %.3f s with its choice and %g rays; best is %s, %.3f s: regret "
-               "%.3f\n",
+        printf("auto: chose %s, %.3f s with its choice and %g rays; best of the others is %s, "
+               "%.3f s: regret %.3f\n",
                chosen->kind, chosen_seconds, AUTO_RAYS, best->name, best_seconds, regret);
     }
     out->regret_sum += regret;

@@ -73,9 +73,26 @@ static bool open_temporary(accel_output *output, accel_error *error)
     if (output->file == NULL) {
         fail(output->path, strerror(errno), error);
         close(descriptor);
-        accel_output_abandon(output);
+        unlink(output->temporary);
+        watch(NULL);
+        free(output->temporary);
         return false;
     }
+    return true;
+}
+
+/* The file that a link leads to takes its place in `path`: renaming would replace the link. */
+static bool follow_link(accel_output *output, accel_error *error)
+{
+    struct stat status;
+    if (lstat(output->path, &status) != 0 || !S_ISLNK(status.st_mode)) {
+        return true;
+    }
+    output->target = realpath(output->path, NULL);
+    if (output->target == NULL) {
+        return fail(output->path, "it is a link that leads to no file", error);
+    }
+    output->path = output->target;
     return true;
 }
 
@@ -83,14 +100,21 @@ bool accel_output_open(accel_output *output, const char *path, accel_error *erro
 {
     *output = (accel_output){.path = path};
     struct stat status;
-    if (stat(path, &status) != 0 || S_ISREG(status.st_mode)) {
-        return open_temporary(output, error);
-    }
-    if (S_ISDIR(status.st_mode)) {
+    if (stat(path, &status) == 0 && S_ISDIR(status.st_mode)) {
         return fail(path, "it is a directory", error);
     }
-    output->file = fopen(path, "wb");
-    return output->file != NULL || fail(path, strerror(errno), error);
+    if (stat(path, &status) == 0 && !S_ISREG(status.st_mode)) {
+        output->file = fopen(path, "wb");
+        return output->file != NULL || fail(path, strerror(errno), error);
+    }
+    if (!follow_link(output, error)) {
+        return false;
+    }
+    if (!open_temporary(output, error)) {
+        free(output->target);
+        return false;
+    }
+    return true;
 }
 
 bool accel_output_commit(accel_output *output, accel_error *error)
@@ -107,6 +131,7 @@ bool accel_output_commit(accel_output *output, accel_error *error)
     }
     watch(NULL);
     free(output->temporary);
+    free(output->target);
     return true;
 }
 
@@ -120,5 +145,6 @@ void accel_output_abandon(accel_output *output)
         watch(NULL);
         free(output->temporary);
     }
+    free(output->target);
     *output = (accel_output){0};
 }

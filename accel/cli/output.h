@@ -2,7 +2,7 @@
  *
  * Output files that appear whole or not at all: written under a temporary name in the same folder,
  * renamed when all bytes have arrived, removed on any error and on Ctrl-C. A device or a pipe is
- * written to directly.
+ * written to directly; a link stays one, and the file that it leads to is replaced.
  */
 #ifndef ACCEL_CLI_OUTPUT_H
 #define ACCEL_CLI_OUTPUT_H
@@ -15,6 +15,7 @@ typedef struct accel_output {
     const char *path; /* where it will appear */
     FILE *file;       /* to write to */
     char *temporary;  /* its name until then; NULL for a device */
+    char *target;     /* where a link leads, else NULL */
 } accel_output;
 
 /* Opens it, before anything long is computed. Otherwise fills error->text. */

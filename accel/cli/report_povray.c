@@ -9,6 +9,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <float.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
@@ -142,6 +143,13 @@ static double unit(const double dir[3], double out[3])
     return largest * sqrt(square);
 }
 
+/* A length that POV-Ray's language can express and divide by: not that of a ray without direction.
+ */
+static bool can_be_said(double length)
+{
+    return length >= DBL_MIN && length <= DBL_MAX;
+}
+
 /* One call of the macro for each ray; returns how many. */
 static size_t write_rays(FILE *f, const accel_exam *e, size_t most)
 {
@@ -150,7 +158,7 @@ static size_t write_rays(FILE *f, const accel_exam *e, size_t most)
         double dir[3], t;
         const double length = unit(e->set.rays[i].dir, dir);
         const int right = right_answer(e, i, length, &t);
-        if (right < 0) {
+        if (right < 0 || !can_be_said(length) || !can_be_said(t)) {
             continue;
         }
         fprintf(f, "Ask(");

@@ -100,7 +100,8 @@ static size_t option_at(const accel_kind_info *info, const char *key)
 }
 
 /* Scenes that have both a smallest and a largest size need them in order. */
-static bool in_order(const accel_kind_info *info, const double *values, accel_error *error)
+static bool in_order(const accel_kind_info *info, const double *values, unsigned seen,
+                     accel_error *error)
 {
     const size_t min = option_at(info, "min"), max = option_at(info, "max");
     if (min == info->option_count || max == info->option_count || values[min] <= values[max]) {
@@ -108,8 +109,8 @@ static bool in_order(const accel_kind_info *info, const double *values, accel_er
     }
     snprintf(error->text, sizeof error->text,
              "scene %s: min=%g%s is above max=%g%s; nothing was made", info->name, values[min],
-             values[min] == info->options[min].standard ? " (the default)" : "", values[max],
-             values[max] == info->options[max].standard ? " (the default)" : "");
+             seen >> min & 1 ? "" : " (the default)", values[max],
+             seen >> max & 1 ? "" : " (the default)");
     return false;
 }
 
@@ -128,7 +129,7 @@ static bool read_options(const accel_kind_info *info, const char *text, double *
         }
         text += length;
     }
-    return in_order(info, values, error);
+    return in_order(info, values, seen, error);
 }
 
 /* A name without dot and slash that is no file was meant as a built-in scene. */

@@ -9,6 +9,7 @@ complains "No such file or directory" info missing.ply
 complains "neither a file nor a built-in scene" info missing
 complains "scene '' is neither a file nor a built-in scene" info ""
 complains "min=2 is above max=1 (the default);" info soup:min=2
+complains "min=2 is above max=1;" info soup:min=2,max=1
 complains "min=0.5 is above max=0.1;" info spheres:max=0.1,min=0.5
 mkdir folder.ply && complains "is a directory" info folder.ply
 mkfifo pipe.ply && complains "is not a regular file" info pipe.ply

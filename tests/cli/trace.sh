@@ -24,6 +24,10 @@ cat >rays.txt <<'RAYS'
 0,0,4,0.75,0.25,-1
 RAYS
 expect 0 trace one --rays rays.txt -o hits.txt
+echo old >target.txt && ln -s target.txt link.txt && ln -s nothing dangling.txt
+expect 0 trace one --rays rays.txt -o link.txt
+[ -L link.txt ] && cmp -s hits.txt target.txt || fail "a link is not followed"
+complains "a link that leads to no file" trace one --rays rays.txt -o dangling.txt
 complains "--camera does not go with it" trace one --rays rays.txt -o x.txt --camera 0,0,5:0,0,0:40
 complains "--size does not go with it" trace one --rays rays.txt -o x.txt --size 8x8
 [ "$(cat hits.txt)" = "miss

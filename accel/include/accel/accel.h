@@ -7,7 +7,7 @@
  *     accel *a;
  *     accel_error error;
  *     if (accel_build(&a, &scene, "hoo:leaf=8", NULL, &error) != ACCEL_OK)
- *         puts(error.text);
+ *         return complain(error.text);
  *     accel_ray ray = accel_ray_from(eye, direction);
  *     accel_hit hit;
  *     if (accel_closest(a, &ray, &hit, NULL))
