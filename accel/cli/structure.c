@@ -4,6 +4,7 @@
  */
 #include "structure.h"
 
+#include <inttypes.h>
 #include <string.h>
 
 bool accel_configs_add(accel_configs *configs, const char *config, const accel_command *command)
@@ -70,6 +71,23 @@ bool accel_open_scene(accel_loaded *loaded, const char *name, const accel_comman
     return fine;
 }
 
+/* Says, once in a run, that primitives are missing from what follows. */
+static void warn_of_skipped(const accel *a, const accel_command *command)
+{
+    static bool warned;
+    accel_info info;
+    accel_describe(a, &info);
+    if (warned || info.skipped == 0) {
+        return;
+    }
+    warned = true;
+    fprintf(stderr,
+            "accel %s: warning: %" PRIu64 " of %" PRIu64 " primitives are invalid and skipped, the "
+            "first is geometry %" PRIu32 ", primitive %" PRIu32 "\n",
+            command->name, info.skipped, info.primitives, info.skipped_ids[0].geom,
+            info.skipped_ids[0].prim);
+}
+
 accel *accel_open_structure(const accel_loaded *loaded, const char *config,
                             const accel_command *command, accel_progress *progress)
 {
@@ -84,5 +102,6 @@ accel *accel_open_structure(const accel_loaded *loaded, const char *config,
         accel_complain(command, "%s", error.text);
         return NULL;
     }
+    warn_of_skipped(a, command);
     return a;
 }

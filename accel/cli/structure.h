@@ -47,7 +47,7 @@ int accel_end_output(accel_output *output, int code, const accel_command *comman
 bool accel_open_scene(accel_loaded *loaded, const char *name, const accel_command *command,
                       accel_progress *progress);
 
-/* Builds with progress, or complains and returns NULL. */
+/* Builds with progress, or complains and returns NULL. Warns of invalid primitives, once. */
 accel *accel_open_structure(const accel_loaded *loaded, const char *config,
                             const accel_command *command, accel_progress *progress);
 

@@ -60,6 +60,9 @@ complains "buffer.bin" info absolute.gltf
 sed 's/^1 0 0$/nan 0 0/' text.off >nan.off
 expect 0 info nan.off -a linear
 says "3 invalid primitives, first (geometry/primitive) 0/0 0/1 0/3"
+expect 0 check nan.off -a grid -a bvh -n 100
+[ "$(grep -c 'warning: 3 of .* the first is geometry 0, primitive 0$' err)" = 1 ] ||
+    fail "no warning, or more than one, of what is skipped: $(cat err)"
 
 expect 0 info cubes:gap=2 -a linear
 says "cubes:gap=2: 12288 primitives in 1 geometries, box (0 0 0) to (60 15 15)"
