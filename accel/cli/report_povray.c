@@ -143,8 +143,7 @@ static double unit(const double dir[3], double out[3])
     return largest * sqrt(square);
 }
 
-/* A length that POV-Ray's language can express and divide by: not that of a ray without direction.
- */
+/* Can POV-Ray's language express a length and divide by it? Not that of no direction. */
 static bool can_be_said(double length)
 {
     return length >= DBL_MIN && length <= DBL_MAX;

@@ -172,12 +172,16 @@ __attribute__((always_inline)) static inline bool fill_as(struct binner *b, bool
     return true;
 }
 
-/* Makes a table of all cells where these are no more than the primitives, or few enough to stay in
- * the cache and to be cleared sooner than hashed. */
+/* Is a table of all cells better than hashing those that are met? Where cells are no more than
+ * primitives, or few enough to stay in the cache and to be cleared sooner than hashed. */
+static bool table_pays(size_t cells, size_t primitives)
+{
+    return cells <= primitives || (cells <= CACHED && cells <= 4 * primitives);
+}
+
 static bool make_table(struct binner *b)
 {
-    const size_t total = b->parts->build->a->prims.bounded.count;
-    if (b->table_size > total && b->table_size > (total < CACHED / 4 ? 4 * total : CACHED))
+    if (!table_pays(b->table_size, b->parts->build->a->prims.bounded.count))
         return true;
     b->table = memory_resize(memory_of(b), NULL, 0, b->table_size * sizeof *b->table);
     if (!b->table)

@@ -134,17 +134,18 @@ static bool note_halves(struct grower *g, const struct task *t, const double pla
                         uint32_t *all)
 {
     const uint32_t *ids = g->stack.at + t->begin;
-    *all = 0x3f;
+    uint32_t met = 0x3f; /* *all may share its place with children, for all the compiler knows */
     for (uint32_t i = 0; i < t->count;) {
         const uint32_t first = i, end = t->count - i > CHUNK ? i + CHUNK : t->count;
         for (; i < end; i++) {
             const uint32_t halves = halves_of(&g->box[ids[i]], plane);
             g->children[i] = (uint8_t)halves;
-            *all &= halves;
+            met &= halves;
         }
         if (!tick(g, end - first))
             return false;
     }
+    *all = met;
     return true;
 }
 

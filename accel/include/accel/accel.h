@@ -77,10 +77,9 @@ typedef enum accel_status {
     ACCEL_BAD_ARGUMENT, /* a NULL, a bad stride, an index past its vertices */
     ACCEL_BAD_CONFIG,   /* the config string: unknown kind or key, repeat, range, trailing text */
     ACCEL_NO_MEMORY,    /* the allocator said no */
-    ACCEL_TOO_LARGE, /* more than 2^32 - 2 primitives (2^24 - 2 with 32 bits), 2^32 - 1 references
-                      */
-    ACCEL_CANCELLED, /* the progress hook said stop */
-    ACCEL_BROKEN     /* accel_validate found a broken invariant: a bug in the library */
+    ACCEL_TOO_LARGE,    /* over 2^32 - 2 primitives (2^24 - 2 with 32 bits), 2^32 - 1 references */
+    ACCEL_CANCELLED,    /* the progress hook said stop */
+    ACCEL_BROKEN        /* accel_validate found a broken invariant: a bug in the library */
 } accel_status;
 
 /* One line: where, what was found, what is allowed, what happened. */
