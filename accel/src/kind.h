@@ -14,6 +14,7 @@
 #include "primitives.h"
 
 struct query;
+struct wide;
 
 /* Options of a kind, and kinds, at most. */
 enum { MAX_OPTIONS = 12, MAX_KINDS = 16 };
@@ -25,6 +26,7 @@ struct accel {
     struct primitives prims;       /* what it is built over */
     double option[MAX_OPTIONS];    /* by the kind's option index; NAN stands for auto */
     accel_info info;               /* as accel_describe hands it out */
+    const struct wide *fast;       /* the tree that answers closest and any queries, or NULL */
 };
 
 /* Values of a double's exponent field. */

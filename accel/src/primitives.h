@@ -67,6 +67,14 @@ static inline const struct geometry *primitives_geometry(const struct primitives
     return p->geometry + (p->geometry_of ? p->geometry_of[id] : 0);
 }
 
+/* ACCEL_NONE if nothing has that name. */
+static inline uint32_t primitives_id(const struct primitives *p, accel_id name)
+{
+    if (name.geom >= p->geometry_count || name.prim >= p->geometry[name.geom].count)
+        return ACCEL_NONE;
+    return p->geometry[name.geom].first + name.prim;
+}
+
 static inline accel_id primitives_name(const struct primitives *p, uint32_t id)
 {
     const struct geometry *g = primitives_geometry(p, id);

@@ -60,14 +60,41 @@ static bool inside(const struct query *q, double t)
 }
 
 /* A native hit: t is clamped into S(P'), and a hit whose S(P') is empty is none. */
-static void offer(struct query *q, uint32_t id, double t, double u, double v)
+static void offer_in(struct query *q, const accel_box *padded, uint32_t id, double t, double u,
+                     double v)
 {
-    const struct interval s = query_box(q, &q->prims->box[id]);
+    const struct interval s = query_box(q, padded);
     if (!(s.a <= s.z) || isnan(t))
         return;
     const double key = clamp(t, s);
     if (inside(q, key))
         keep(q, &(struct found){key, key, u, v, id});
+}
+
+static void offer(struct query *q, uint32_t id, double t, double u, double v)
+{
+    offer_in(q, &q->prims->box[id], id, t, u, v);
+}
+
+void query_test_triangle(struct query *q, uint32_t id, const double *vertices)
+{
+    double t, u, v;
+    if (id == q->skip)
+        return;
+    q->tests++;
+    if (!q->point && !triangle_hit(q, vertices, &t, &u, &v))
+        return;
+    accel_box box = box_empty();
+    for (int i = 0; i < 3; i++)
+        box_add_point(&box, vertices + 3 * i);
+    box = box_padded(&box);
+    if (!q->point) {
+        offer_in(q, &box, id, t, u, v);
+        return;
+    }
+    const struct interval s = query_box(q, &box);
+    if (s.a <= s.z)
+        keep(q, &(struct found){0.0, 0.0, 0.0, 0.0, id});
 }
 
 static void test_triangle(struct query *q, const struct geometry *g, uint32_t id)

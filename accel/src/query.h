@@ -169,6 +169,9 @@ static inline double query_cap(const struct query *q)
     return (q->limit < q->tmax ? q->limit : q->tmax) * (1.0 + QUERY_SLACK);
 }
 
+/* What the tests of primitives need to know of a ray, for a query that keeps its hits itself. */
+void query_prepare(struct query *q, const accel *a, const accel_ray *ray);
+
 /* Is the query answered, whatever else may come? */
 static inline bool query_done(const struct query *q)
 {
@@ -183,6 +186,11 @@ void query_test_list(struct query *q, const uint32_t *ids, size_t count);
  * point queries, nor for references that a walk meets twice. */
 void query_test_triangles(struct query *q, const uint32_t *ids, const double *vertices,
                           size_t count);
+
+/* Tests one triangle whose vertices the kind keeps, 9 doubles, and nothing else of it: its box P' is
+ * made from them again. In another rounding mode than that of the build it may be some last bits
+ * larger than what the kind was built around; boxes that are padded by more hold it all the same. */
+void query_test_triangle(struct query *q, uint32_t id, const double *vertices);
 
 /* Tests every one: what linear does. */
 void query_test_all(struct query *q, const uint32_t *ids, size_t count);

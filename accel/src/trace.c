@@ -5,6 +5,7 @@
  */
 #include "kind.h"
 #include "query.h"
+#include "wide/wide_isa.h"
 
 #include <string.h>
 
@@ -45,13 +46,6 @@ static void prepare_shear(struct query *q)
     q->shear[2] = 1.0 / q->dir[kz];
 }
 
-static uint32_t id_of(const struct primitives *p, accel_id name)
-{
-    if (name.geom >= p->geometry_count || name.prim >= p->geometry[name.geom].count)
-        return ACCEL_NONE;
-    return p->geometry[name.geom].first + name.prim;
-}
-
 static void prepare(struct query *q, const accel *a, const accel_ray *ray, struct found *found,
                     uint32_t room, accel_query *caller)
 {
@@ -61,12 +55,18 @@ static void prepare(struct query *q, const accel *a, const accel_ray *ray, struc
     memcpy(q->dir, ray->dir, sizeof q->dir);
     q->tmin = ray->tmin;
     q->tmax = ray->tmax;
-    q->skip = id_of(&a->prims, ray->skip);
+    q->skip = primitives_id(&a->prims, ray->skip);
     q->found = found;
     q->room = room;
     q->caller = caller;
     q->ray = ray;
     prepare_slabs(q);
+}
+
+void query_prepare(struct query *q, const accel *a, const accel_ray *ray)
+{
+    prepare(q, a, ray, NULL, 0, NULL);
+    prepare_shear(q);
 }
 
 /* One walk: the first hits after q->last. Things without bounds come first: they may set the
@@ -117,6 +117,11 @@ static bool find_first(struct query *q, const accel *a, const accel_ray *ray, bo
 
 bool accel_closest(const accel *a, const accel_ray *ray, accel_hit *hit, accel_query *query)
 {
+    if (a->fast) {
+        const enum wide_answer answer = a->fast->isa->closest(a, a->fast, ray, hit, query);
+        if (answer != WIDE_ANY_OTHER_WAY)
+            return answer == WIDE_HIT;
+    }
     if (!valid(ray))
         return refuse(query);
     struct query q;
@@ -129,6 +134,11 @@ bool accel_closest(const accel *a, const accel_ray *ray, accel_hit *hit, accel_q
 
 bool accel_any(const accel *a, const accel_ray *ray, accel_query *query)
 {
+    if (a->fast) {
+        const enum wide_answer answer = a->fast->isa->any(a, a->fast, ray, query);
+        if (answer != WIDE_ANY_OTHER_WAY)
+            return answer == WIDE_HIT;
+    }
     if (!valid(ray))
         return refuse(query);
     struct query q;

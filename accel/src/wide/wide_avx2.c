@@ -1,0 +1,158 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * The walks of wide trees with AVX2 and FMA: 8 boxes at once, 4 triangles in double.
+ */
+#if defined(__x86_64__) && defined(__GNUC__)
+
+#include <immintrin.h>
+
+#include "../kind.h"
+#include "../query.h"
+#include "wide_isa.h"
+
+#if defined(__clang__)
+#pragma clang attribute push(__attribute__((target("avx2,fma,bmi,lzcnt"))), apply_to = function)
+#else
+#pragma GCC push_options
+#pragma GCC target("avx2,fma,bmi,lzcnt")
+#endif
+
+struct node_ray {
+    __m256 inverse[3], offset[3], tmin, limit;
+    size_t near[3]; /* bytes from a node to the near planes */
+};
+
+static inline void node_ray_limit(struct node_ray *n, float limit)
+{
+    n->limit = _mm256_set1_ps(limit);
+}
+
+static inline struct node_ray node_ray_from(const struct wide_ray *r, float limit)
+{
+    struct node_ray n;
+    for (uint32_t k = 0; k < 3; k++) {
+        n.inverse[k] = _mm256_set1_ps(r->inverse[k]);
+        n.offset[k] = _mm256_set1_ps(r->offset[k]);
+        n.near[k] = 128 * k + 64 * (r->sign >> k & 1);
+    }
+    n.tmin = _mm256_set1_ps(r->tmin);
+    n.limit = _mm256_set1_ps(limit);
+    return n;
+}
+
+/* Where the planes at so many bytes from the node are crossed. */
+static inline __m256 crossing(const struct node_ray *n, const char *node, size_t at, int k)
+{
+    return _mm256_fmadd_ps(_mm256_load_ps((const float *)(node + at)), n->inverse[k], n->offset[k]);
+}
+
+/* Eight of the children. No begin is negative, so floats compare as integers do, and steps can be
+ * added. */
+static inline uint32_t half_meets(const struct node_ray *n, const char *node, float *begin)
+{
+    const size_t *near = n->near;
+    const __m256 a = _mm256_max_ps(
+        _mm256_max_ps(crossing(n, node, near[0], 0), crossing(n, node, near[1], 1)),
+        _mm256_max_ps(crossing(n, node, near[2], 2), n->tmin));
+    const __m256 z = _mm256_min_ps(
+        _mm256_min_ps(crossing(n, node, 64 - near[0], 0), crossing(n, node, 320 - near[1], 1)),
+        _mm256_min_ps(crossing(n, node, 576 - near[2], 2), n->limit));
+    const __m256i last = _mm256_add_epi32(_mm256_castps_si256(z), _mm256_set1_epi32(WIDE_STEPS));
+    const __m256i missed = _mm256_cmpgt_epi32(_mm256_castps_si256(a), last);
+    _mm256_store_ps(begin, a);
+    return ~(uint32_t)_mm256_movemask_ps(_mm256_castsi256_ps(missed)) & 0xff;
+}
+
+static inline uint32_t node_meets(const struct node_ray *n, const struct wide_node *node,
+                                  float begin[WIDE])
+{
+    const char *at = (const char *)node;
+    return half_meets(n, at, begin) | half_meets(n, at + 32, begin + 8) << 8;
+}
+
+struct leaf_ray {
+    __m256d org[3], shear[3]; /* along kx, ky, kz */
+    uint32_t axis[3];
+};
+
+static inline struct leaf_ray leaf_ray_from(const struct wide_ray *r)
+{
+    struct leaf_ray l;
+    for (int k = 0; k < 3; k++) {
+        l.axis[k] = r->axis[k];
+        l.org[k] = _mm256_set1_pd(r->org[r->axis[k]]);
+        l.shear[k] = _mm256_set1_pd(r->shear[k]);
+    }
+    return l;
+}
+
+/* Four coordinates of a block of packed triangles: of one corner and axis, from the i-th on. */
+static inline __m256d coordinates(const struct wide_block *b, uint32_t row, uint32_t i)
+{
+    const size_t place = row * (size_t)b->count + i;
+    if (b->type == WIDE_DOUBLES)
+        return _mm256_loadu_pd((const double *)wide_block_data(b) + place);
+    return _mm256_cvtps_pd(_mm_loadu_ps((const float *)wide_block_data(b) + place));
+}
+
+#define LANES 4
+typedef __m256d lanes;
+static inline lanes lanes_sub(lanes a, lanes b) { return _mm256_sub_pd(a, b); }
+static inline lanes lanes_mul(lanes a, lanes b) { return _mm256_mul_pd(a, b); }
+static inline lanes lanes_add(lanes a, lanes b) { return _mm256_add_pd(a, b); }
+static inline lanes lanes_div(lanes a, lanes b) { return _mm256_div_pd(a, b); }
+static inline lanes lanes_min(lanes a, lanes b) { return _mm256_min_pd(a, b); }
+static inline lanes lanes_max(lanes a, lanes b) { return _mm256_max_pd(a, b); }
+static inline lanes lanes_abs(lanes a) { return _mm256_andnot_pd(_mm256_set1_pd(-0.0), a); }
+static inline lanes lanes_all(double x) { return _mm256_set1_pd(x); }
+static inline void lanes_store(double *at, lanes a) { _mm256_store_pd(at, a); }
+#define lanes_compare(a, b, how) ((uint32_t)_mm256_movemask_pd(_mm256_cmp_pd(a, b, how)))
+
+#include "wide_leaf.h"
+
+static inline struct corners load_corners(const struct leaf_ray *l, const struct wide_block *b,
+                                          uint32_t from)
+{
+    struct corners c;
+    for (uint32_t i = 0; i < 3; i++)
+        shear_corner(l, coordinates(b, 3 * i + l->axis[0], from),
+                     coordinates(b, 3 * i + l->axis[1], from),
+                     coordinates(b, 3 * i + l->axis[2], from), &c, i);
+    return c;
+}
+
+static inline bool leaf_test(const struct leaf_ray *l, struct wide_fast *f,
+                             const struct wide_block *b, bool any)
+{
+    bool better = false;
+    for (uint32_t i = 0; i < b->count && !(any && better); i += LANES) {
+        const struct corners c = load_corners(l, b, i);
+        better |= test_lanes(l, f, b, &c, i, any);
+    }
+    return better;
+}
+
+#include "wide_fast.h"
+
+static bool works_here(void)
+{
+    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
+           __builtin_cpu_supports("bmi");
+}
+
+#if defined(__clang__)
+#pragma clang attribute pop
+#else
+#pragma GCC pop_options
+#endif
+
+const struct wide_isa wide_avx2 = {
+    .name = "avx2",
+    .works_here = works_here,
+    .rule = {.lanes = 4, .pool = false, .node_cost = 1.0},
+    .closest = closest,
+    .any = any,
+    .walk = walk,
+};
+
+#endif

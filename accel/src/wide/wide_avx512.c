@@ -1,0 +1,192 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * The walks of wide trees with AVX-512: 16 boxes at once, 8 triangles in double, whose shared
+ * vertices are moved and sheared once.
+ */
+#if defined(__x86_64__) && defined(__GNUC__)
+
+#include <immintrin.h>
+
+#include "../kind.h"
+#include "../query.h"
+#include "wide_isa.h"
+
+#define FEATURES "avx512f,avx512vl,avx512dq,avx512bw,avx2,fma,bmi,lzcnt"
+
+#if defined(__clang__)
+#pragma clang attribute push(__attribute__((target(FEATURES))), apply_to = function)
+#else
+#pragma GCC push_options
+#pragma GCC target("avx512f,avx512vl,avx512dq,avx512bw,avx2,fma,bmi,lzcnt")
+#endif
+
+struct node_ray {
+    __m512 inverse[3], offset[3], tmin, limit;
+    size_t near[3]; /* bytes from a node to the near planes */
+};
+
+static inline void node_ray_limit(struct node_ray *n, float limit)
+{
+    n->limit = _mm512_set1_ps(limit);
+}
+
+static inline struct node_ray node_ray_from(const struct wide_ray *r, float limit)
+{
+    struct node_ray n;
+    for (uint32_t k = 0; k < 3; k++) {
+        n.inverse[k] = _mm512_set1_ps(r->inverse[k]);
+        n.offset[k] = _mm512_set1_ps(r->offset[k]);
+        n.near[k] = 128 * k + 64 * (r->sign >> k & 1);
+    }
+    n.tmin = _mm512_set1_ps(r->tmin);
+    n.limit = _mm512_set1_ps(limit);
+    return n;
+}
+
+/* Where the planes at so many bytes from the node are crossed. */
+static inline __m512 crossing(const struct node_ray *n, const char *node, size_t at, int k)
+{
+    return _mm512_fmadd_ps(_mm512_load_ps((const float *)(node + at)), n->inverse[k], n->offset[k]);
+}
+
+/* No begin is negative, so floats compare as integers do, and steps can be added. */
+static inline uint32_t node_meets(const struct node_ray *n, const struct wide_node *node,
+                                  float begin[WIDE])
+{
+    const char *at = (const char *)node;
+    const size_t *near = n->near;
+    const __m512 a =
+        _mm512_max_ps(_mm512_max_ps(crossing(n, at, near[0], 0), crossing(n, at, near[1], 1)),
+                      _mm512_max_ps(crossing(n, at, near[2], 2), n->tmin));
+    const __m512 z = _mm512_min_ps(
+        _mm512_min_ps(crossing(n, at, 64 - near[0], 0), crossing(n, at, 320 - near[1], 1)),
+        _mm512_min_ps(crossing(n, at, 576 - near[2], 2), n->limit));
+    const __m512i last = _mm512_add_epi32(_mm512_castps_si512(z), _mm512_set1_epi32(WIDE_STEPS));
+    _mm512_store_ps(begin, a);
+    return _mm512_cmple_epi32_mask(_mm512_castps_si512(a), last);
+}
+
+struct leaf_ray {
+    __m512d org[3], shear[3]; /* along kx, ky, kz */
+    uint32_t axis[3];
+};
+
+static inline struct leaf_ray leaf_ray_from(const struct wide_ray *r)
+{
+    struct leaf_ray l;
+    for (int k = 0; k < 3; k++) {
+        l.axis[k] = r->axis[k];
+        l.org[k] = _mm512_set1_pd(r->org[r->axis[k]]);
+        l.shear[k] = _mm512_set1_pd(r->shear[k]);
+    }
+    return l;
+}
+
+#define LANES 8
+typedef __m512d lanes;
+static inline lanes lanes_sub(lanes a, lanes b) { return _mm512_sub_pd(a, b); }
+static inline lanes lanes_mul(lanes a, lanes b) { return _mm512_mul_pd(a, b); }
+static inline lanes lanes_add(lanes a, lanes b) { return _mm512_add_pd(a, b); }
+static inline lanes lanes_div(lanes a, lanes b) { return _mm512_div_pd(a, b); }
+static inline lanes lanes_min(lanes a, lanes b) { return _mm512_min_pd(a, b); }
+static inline lanes lanes_max(lanes a, lanes b) { return _mm512_max_pd(a, b); }
+static inline lanes lanes_abs(lanes a) { return _mm512_abs_pd(a); }
+static inline lanes lanes_all(double x) { return _mm512_set1_pd(x); }
+static inline void lanes_store(double *at, lanes a) { _mm512_store_pd(at, a); }
+#define lanes_compare(a, b, how) ((uint32_t)_mm512_cmp_pd_mask(a, b, how))
+
+#include "wide_leaf.h"
+
+/* A row of packed coordinates: of one corner and axis. */
+static inline __m512d row(const struct wide_block *b, uint32_t number)
+{
+    const size_t place = number * (size_t)b->count;
+    const __mmask8 there = (__mmask8)((1u << b->count) - 1);
+    if (b->type == WIDE_DOUBLES)
+        return _mm512_maskz_loadu_pd(there, (const double *)wide_block_data(b) + place);
+    return _mm512_cvtps_pd(
+        _mm256_maskz_loadu_ps(there, (const float *)wide_block_data(b) + place));
+}
+
+static inline struct corners load_packed(const struct leaf_ray *l, const struct wide_block *b)
+{
+    struct corners c;
+    for (uint32_t i = 0; i < 3; i++)
+        shear_corner(l, row(b, 3 * i + l->axis[0]), row(b, 3 * i + l->axis[1]),
+                     row(b, 3 * i + l->axis[2]), &c, i);
+    return c;
+}
+
+/* Coordinates of up to 16 vertices. */
+struct vertices {
+    __m512d low, high;
+};
+
+static inline struct vertices pool_row(const float *at, __mmask16 there)
+{
+    const __m512 all = _mm512_maskz_loadu_ps(there, at);
+    return (struct vertices){_mm512_cvtps_pd(_mm512_castps512_ps256(all)),
+                             _mm512_cvtps_pd(_mm512_extractf32x8_ps(all, 1))};
+}
+
+static inline __m512d pick(const struct vertices *v, __m512i corner)
+{
+    return _mm512_permutex2var_pd(v->low, corner, v->high);
+}
+
+static inline struct corners load_pool(const struct leaf_ray *l, const struct wide_block *b)
+{
+    const float *at = wide_block_data(b);
+    const uint32_t n = b->vertices;
+    const uint8_t *corner = (const uint8_t *)(at + 3 * n);
+    const __mmask16 there = (__mmask16)((1u << n) - 1);
+    struct corners low, high, c;
+    const struct vertices px = pool_row(at + l->axis[0] * n, there),
+                          py = pool_row(at + l->axis[1] * n, there),
+                          pz = pool_row(at + l->axis[2] * n, there);
+    shear_corner(l, px.low, py.low, pz.low, &low, 0);
+    shear_corner(l, px.high, py.high, pz.high, &high, 0);
+    const struct vertices x = {low.x[0], high.x[0]}, y = {low.y[0], high.y[0]},
+                          z = {low.z[0], high.z[0]};
+    for (uint32_t i = 0; i < 3; i++) {
+        const __m512i which = _mm512_cvtepu8_epi64(
+            _mm_loadl_epi64((const __m128i *)(const void *)(corner + WIDE_BLOCK * i)));
+        c.x[i] = pick(&x, which);
+        c.y[i] = pick(&y, which);
+        c.z[i] = pick(&z, which);
+    }
+    return c;
+}
+
+static inline bool leaf_test(const struct leaf_ray *l, struct wide_fast *f,
+                             const struct wide_block *b, bool any)
+{
+    const struct corners c = b->type == WIDE_POOL ? load_pool(l, b) : load_packed(l, b);
+    return test_lanes(l, f, b, &c, 0, any);
+}
+
+#include "wide_fast.h"
+
+static bool works_here(void)
+{
+    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+           __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") &&
+           __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi");
+}
+
+#if defined(__clang__)
+#pragma clang attribute pop
+#else
+#pragma GCC pop_options
+#endif
+
+const struct wide_isa wide_avx512 = {
+    .name = "avx512",
+    .works_here = works_here,
+    .rule = {.lanes = 8, .pool = true, .node_cost = 1.0},
+    .closest = closest,
+    .any = any,
+    .walk = walk,
+};
+
+#endif

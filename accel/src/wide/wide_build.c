@@ -1,0 +1,99 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * The life of a wide tree: see wide.h.
+ */
+#include "wide.h"
+
+#include <string.h>
+
+#include "../box.h"
+
+/* Coordinates up to here leave all edge functions finite: see wide_leaf.h. */
+#define FAST_COORDINATE 0x1p300
+
+/* The power of two that takes the largest coordinate into [1/2, 1). */
+static double scale_of(const accel_box *bounds, double *largest)
+{
+    int exponent;
+    *largest = 0.0;
+    for (int k = 0; k < 3; k++)
+        *largest = fmax(*largest, fmax(fabs(bounds->lo[k]), fabs(bounds->hi[k])));
+    if (*largest == 0.0)
+        return 1.0;
+    frexp(*largest, &exponent);
+    return ldexp(1.0, exponent < -999 ? 999 : -exponent);
+}
+
+static float down(double x)
+{
+    const float f = (float)x;
+    return (double)f <= x ? f : nextafterf(f, -(float)INFINITY);
+}
+
+static float up(double x)
+{
+    const float f = (float)x;
+    return (double)f >= x ? f : nextafterf(f, (float)INFINITY);
+}
+
+static bool gather(struct build *build, const struct wide *w, struct wide_binary_tree *tree)
+{
+    const struct primitives *p = &build->a->prims;
+    for (uint32_t i = 0; i < tree->count; i++) {
+        const uint32_t id = p->bounded.at[i];
+        const accel_box *box = &p->box[id];
+        struct wide_item *item = &tree->items[i];
+        for (int k = 0; k < 3; k++) {
+            item->lo[k] = down(box->lo[k] * w->scale);
+            item->hi[k] = up(box->hi[k] * w->scale);
+        }
+        item->id = id;
+        item->unused = 0;
+        if (i % 16384 == 0 && !build_tick(build, 0.0))
+            return false;
+    }
+    return true;
+}
+
+static bool allocate(struct build *build, struct wide_binary_tree *tree)
+{
+    struct memory *m = &build->a->memory;
+    const size_t n = tree->count;
+    tree->items = memory_resize(m, NULL, 0, n * sizeof *tree->items);
+    tree->nodes = tree->items ? memory_resize(m, NULL, 0, (2 * n - 1) * sizeof *tree->nodes) : NULL;
+    return tree->nodes || build_no_memory(build);
+}
+
+static void release(struct build *build, struct wide_binary_tree *tree)
+{
+    struct memory *m = &build->a->memory;
+    const size_t n = tree->count;
+    if (tree->items)
+        memory_resize(m, tree->items, n * sizeof *tree->items, 0);
+    if (tree->nodes)
+        memory_resize(m, tree->nodes, (2 * n - 1) * sizeof *tree->nodes, 0);
+}
+
+bool wide_build(struct build *build, struct wide *w, struct wide_rule rule)
+{
+    const struct primitives *p = &build->a->prims;
+    struct wide_binary_tree tree = {.count = (uint32_t)p->bounded.count};
+    double largest;
+    w->scale = scale_of(&p->bounds, &largest);
+    w->fast = largest <= FAST_COORDINATE;
+    build_phase(build, "tree");
+    bool fine = allocate(build, &tree) && gather(build, w, &tree) && wide_grow(build, w, rule, &tree);
+    if (fine) {
+        build_phase(build, "layout");
+        fine = wide_emit(build, w, rule, &tree);
+    }
+    release(build, &tree);
+    return fine;
+}
+
+void wide_free(struct memory *m, struct wide *w)
+{
+    if (w->memory)
+        memory_resize(m, w->memory, w->bytes, 0);
+    w->memory = NULL;
+}

@@ -1,0 +1,363 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * Laying out a wide tree: depth first, each node followed by what is below it, so that a ray that
+ * goes down finds much of its way in the same pages.
+ */
+#include "wide.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Vertices that a block's triangles may share, and bytes behind the last block: loads of full
+ * registers end there at the latest. */
+enum { POOL = 16, TAIL = 256 };
+
+struct emitter {
+    struct build *build;
+    struct wide *w;
+    struct wide_rule rule;
+    const struct wide_binary_tree *tree;
+    size_t used; /* bytes so far */
+};
+
+static const struct geometry *geometry_of(const struct emitter *e, uint32_t id)
+{
+    return primitives_geometry(&e->build->a->prims, id);
+}
+
+static const double *triangle(const struct emitter *e, uint32_t id)
+{
+    const struct geometry *g = geometry_of(e, id);
+    return g->data + 9 * (size_t)(id - g->first);
+}
+
+static bool tick(const struct emitter *e, uint32_t item)
+{
+    return build_step(e->build, 1, (double)item / (double)e->tree->count);
+}
+
+/* ------------------------------------------------------------------------------- blocks ---- */
+
+static size_t aligned(size_t size, size_t to)
+{
+    return (size + to - 1) / to * to;
+}
+
+/* Finishes a block of `size` bytes. */
+static void end_block(struct emitter *e, struct wide_block *b, size_t size)
+{
+    b->size = (uint32_t)aligned(sizeof *b + size, 16);
+    e->used += b->size;
+    e->w->blocks++;
+}
+
+static struct wide_block *begin_block(struct emitter *e, enum wide_type type)
+{
+    struct wide_block *b = (struct wide_block *)(e->w->base + e->used);
+    *b = (struct wide_block){.type = (uint8_t)type, .least_det = 0.0f, .far_origin = (float)INFINITY};
+    return b;
+}
+
+static bool is_float(const double *x, int count)
+{
+    for (int i = 0; i < count; i++)
+        if ((double)(float)x[i] != x[i])
+            return false;
+    return true;
+}
+
+static float rounded_up(double x)
+{
+    const double up = x * (1.0 + 0x1p-22) + 0x1p-126;
+    return up < 0x1p127 ? (float)up : (float)INFINITY;
+}
+
+/* Widens a block's bounds for the lemma "no clamp" (wide_leaf.h) to another triangle. */
+static void bound(struct wide_block *b, const double *v)
+{
+    accel_box box = box_empty();
+    double coordinate = 0.0;
+    for (int i = 0; i < 3; i++)
+        box_add_point(&box, v + 3 * i);
+    for (int k = 0; k < 3; k++)
+        coordinate = fmax(coordinate, fmax(fabs(box.lo[k]), fabs(box.hi[k])));
+    const double side = box_longest(&box);
+    const float det = rounded_up(side / coordinate * side * side);
+    const double far = 7.0 * coordinate * (1.0 - 0x1p-22);
+    b->least_det = det > b->least_det ? det : b->least_det;
+    if (!(far >= (double)b->far_origin))
+        b->far_origin = far > 0x1p-120 ? (float)far : -1.0f;
+}
+
+/* Corners of a block's triangles, each vertex once. */
+struct pool {
+    float at[POOL][3];
+    uint32_t count;
+    uint8_t corner[3][WIDE_BLOCK];
+};
+
+/* Adds a triangle; false: the pool is full. */
+static bool pool_add(struct pool *p, const double *v, uint32_t triangle)
+{
+    const uint32_t before = p->count;
+    for (int i = 0; i < 3; i++) {
+        const float at[3] = {(float)v[3 * i], (float)v[3 * i + 1], (float)v[3 * i + 2]};
+        uint32_t j = 0;
+        while (j < p->count && memcmp(p->at[j], at, sizeof at) != 0)
+            j++;
+        if (j == POOL) {
+            p->count = before;
+            return false;
+        }
+        if (j == p->count)
+            memcpy(p->at[p->count++], at, sizeof at);
+        p->corner[i][triangle] = (uint8_t)j;
+    }
+    return true;
+}
+
+static void put_pool(struct emitter *e, struct wide_block *b, const struct pool *p,
+                     const uint32_t *ids)
+{
+    unsigned char *at = (unsigned char *)(b + 1);
+    b->vertices = (uint8_t)p->count;
+    for (uint32_t k = 0; k < 3; k++)
+        for (uint32_t j = 0; j < p->count; j++)
+            memcpy(at + sizeof(float) * (k * p->count + j), &p->at[j][k], sizeof(float));
+    at += 12 * p->count;
+    memcpy(at, p->corner, sizeof p->corner);
+    memcpy(at + sizeof p->corner, ids, b->count * sizeof *ids);
+    end_block(e, b, 12 * p->count + sizeof p->corner + b->count * sizeof *ids);
+}
+
+/* As many of the triangles as have room in one block with a pool. Returns how many. */
+static uint32_t emit_pool(struct emitter *e, const uint32_t *ids, uint32_t count)
+{
+    struct pool p = {.count = 0};
+    struct wide_block *b = begin_block(e, WIDE_POOL);
+    while (b->count < count && b->count < WIDE_BLOCK) {
+        const double *v = triangle(e, ids[b->count]);
+        if (!pool_add(&p, v, b->count))
+            break;
+        bound(b, v);
+        b->count++;
+    }
+    put_pool(e, b, &p, ids);
+    return b->count;
+}
+
+static uint32_t emit_packed(struct emitter *e, const uint32_t *ids, uint32_t count, bool floats)
+{
+    struct wide_block *b = begin_block(e, floats ? WIDE_FLOATS : WIDE_DOUBLES);
+    unsigned char *at = (unsigned char *)(b + 1);
+    const uint32_t n = count < WIDE_BLOCK ? count : WIDE_BLOCK;
+    const size_t size = floats ? sizeof(float) : sizeof(double);
+    b->count = (uint8_t)n;
+    for (uint32_t i = 0; i < n; i++) {
+        const double *v = triangle(e, ids[i]);
+        bound(b, v);
+        for (uint32_t c = 0; c < 9; c++) {
+            const float single = (float)v[c];
+            memcpy(at + size * (c * n + i), floats ? (const void *)&single : (const void *)&v[c], size);
+        }
+    }
+    memcpy(at + 9 * size * n, ids, n * sizeof *ids);
+    end_block(e, b, (9 * size + sizeof *ids) * n);
+    return n;
+}
+
+static uint32_t emit_list(struct emitter *e, const uint32_t *ids, uint32_t count)
+{
+    struct wide_block *b = begin_block(e, WIDE_LIST);
+    const uint32_t n = count < WIDE_BLOCK ? count : WIDE_BLOCK;
+    b->count = (uint8_t)n;
+    memcpy(b + 1, ids, n * sizeof *ids);
+    end_block(e, b, n * sizeof *ids);
+    return n;
+}
+
+static uint32_t emit_block(struct emitter *e, const uint32_t *ids, uint32_t count, enum wide_type type)
+{
+    if (type == WIDE_LIST)
+        return emit_list(e, ids, count);
+    if (type == WIDE_FLOATS && e->rule.pool)
+        return emit_pool(e, ids, count);
+    return emit_packed(e, ids, count, type == WIDE_FLOATS);
+}
+
+static enum wide_type type_of(const struct emitter *e, uint32_t id)
+{
+    if (geometry_of(e, id)->type != ACCEL_TRIANGLES)
+        return WIDE_LIST;
+    return is_float(triangle(e, id), 9) ? WIDE_FLOATS : WIDE_DOUBLES;
+}
+
+/* A leaf: its primitives by type, in blocks. Returns its word. */
+static uint32_t emit_leaf(struct emitter *e, const struct wide_binary *node)
+{
+    const uint32_t word = WIDE_LEAF | (uint32_t)(e->used / 16);
+    struct wide_block *last = NULL;
+    e->w->leaves++;
+    for (enum wide_type type = WIDE_FLOATS; type <= WIDE_LIST; type++) {
+        uint32_t ids[WIDE_BLOCK], count = 0, done = 0;
+        for (uint32_t i = 0; i < node->count; i++) {
+            const uint32_t id = e->tree->items[node->first + i].id;
+            if (type_of(e, id) == type)
+                ids[count++] = id;
+        }
+        while (done < count) {
+            last = (struct wide_block *)(e->w->base + e->used);
+            done += emit_block(e, ids + done, count - done, type);
+        }
+    }
+    last->last = 1;
+    return word;
+}
+
+/* -------------------------------------------------------------------------------- nodes ---- */
+
+struct children {
+    uint32_t place[WIDE]; /* in the binary tree */
+    uint32_t count;
+};
+
+/* The subtree at `place` as at most `slots` children. */
+static void collect(const struct emitter *e, uint32_t place, uint32_t slots, struct children *out)
+{
+    const struct wide_binary *node = &e->tree->nodes[place];
+    slots = slots < node->slots ? slots : node->slots;
+    while (slots > 1 && node->left[slots] == 0)
+        slots--;
+    if (slots == 1) {
+        out->place[out->count++] = place;
+        return;
+    }
+    collect(e, place + 1, node->left[slots], out);
+    collect(e, node->right, slots - node->left[slots], out);
+}
+
+static float area(const struct wide_binary *n)
+{
+    const float x = n->hi[0] - n->lo[0], y = n->hi[1] - n->lo[1], z = n->hi[2] - n->lo[2];
+    return x * y + y * z + z * x;
+}
+
+/* Largest first. */
+static void sort_children(const struct emitter *e, struct children *c)
+{
+    for (uint32_t i = 1; i < c->count; i++) {
+        const uint32_t moved = c->place[i];
+        const float size = area(&e->tree->nodes[moved]);
+        uint32_t to = i;
+        for (; to > 0 && area(&e->tree->nodes[c->place[to - 1]]) < size; to--)
+            c->place[to] = c->place[to - 1];
+        c->place[to] = moved;
+    }
+}
+
+static float outward(double x, double away)
+{
+    const double moved = x + away;
+    const float f = (float)moved;
+    if (away < 0 ? (double)f <= moved : (double)f >= moved)
+        return f;
+    return nextafterf(f, away < 0 ? -(float)INFINITY : (float)INFINITY);
+}
+
+static void fill_node(struct emitter *e, struct wide_node *node, const struct children *c)
+{
+    const float inf = (float)INFINITY;
+    for (uint32_t i = 0; i < WIDE; i++) {
+        const struct wide_binary *child = i < c->count ? &e->tree->nodes[c->place[i]] : NULL;
+        for (int k = 0; k < 3; k++) {
+            node->plane[k][0][i] = child ? outward((double)child->lo[k], -(double)WIDE_PAD) : inf;
+            node->plane[k][1][i] = child ? outward((double)child->hi[k], (double)WIDE_PAD) : -inf;
+        }
+        node->child[i] = 0;
+    }
+}
+
+/* Lays out the subtree at `place`. */
+static bool emit(struct emitter *e, uint32_t place, uint32_t depth, uint32_t *word)
+{
+    const struct wide_binary *top = &e->tree->nodes[place];
+    struct children c = {.count = 0};
+    if (top->leaf) {
+        *word = emit_leaf(e, top);
+        return tick(e, top->first);
+    }
+    collect(e, place + 1, top->left_of_all, &c);
+    collect(e, top->right, WIDE - top->left_of_all, &c);
+    sort_children(e, &c);
+    e->used = aligned(e->used, 64);
+    const size_t at = e->used;
+    struct wide_node *node = (struct wide_node *)(e->w->base + at);
+    fill_node(e, node, &c);
+    e->used += sizeof *node;
+    e->w->nodes++;
+    e->w->depth = depth + 1 > e->w->depth ? depth + 1 : e->w->depth;
+    *word = (uint32_t)(at / 16);
+    for (uint32_t i = 0; i < c.count; i++)
+        if (!emit(e, c.place[i], depth + 1, &node->child[i]))
+            return false;
+    return true;
+}
+
+/* --------------------------------------------------------------------------------- room ---- */
+
+/* The bytes that the subtree takes at most. */
+static size_t room_for(const struct emitter *e, uint32_t place)
+{
+    const struct wide_binary *top = &e->tree->nodes[place];
+    struct children c = {.count = 0};
+    if (top->leaf)
+        return top->count * (sizeof(struct wide_block) + 16 + 76);
+    collect(e, place + 1, top->left_of_all, &c);
+    collect(e, top->right, WIDE - top->left_of_all, &c);
+    size_t room = sizeof(struct wide_node) + 64;
+    for (uint32_t i = 0; i < c.count; i++)
+        room += room_for(e, c.place[i]);
+    return room;
+}
+
+static unsigned char *align(void *memory)
+{
+    return (unsigned char *)(((uintptr_t)memory + 63) & ~(uintptr_t)63);
+}
+
+static bool allocate(struct emitter *e, size_t bytes)
+{
+    struct wide *w = e->w;
+    w->memory = memory_resize(&e->build->a->memory, NULL, 0, bytes + 64);
+    if (!w->memory)
+        return build_no_memory(e->build);
+    w->bytes = bytes + 64;
+    w->base = align(w->memory);
+    return true;
+}
+
+/* Gives back what the layout did not need. */
+static void trim(struct emitter *e)
+{
+    struct wide *w = e->w;
+    const size_t bytes = e->used + TAIL + 64, shift = (size_t)(w->base - (unsigned char *)w->memory);
+    memset(w->base + e->used, 0, TAIL);
+    void *smaller = memory_resize(&e->build->a->memory, w->memory, w->bytes, bytes);
+    if (!smaller)
+        return;
+    w->memory = smaller;
+    w->bytes = bytes;
+    w->base = align(smaller);
+    if (w->base != (unsigned char *)smaller + shift)
+        memmove(w->base, (unsigned char *)smaller + shift, e->used + TAIL);
+}
+
+bool wide_emit(struct build *build, struct wide *w, struct wide_rule rule,
+               const struct wide_binary_tree *tree)
+{
+    struct emitter e = {.build = build, .w = w, .rule = rule, .tree = tree};
+    if (!allocate(&e, room_for(&e, 0) + TAIL) || !emit(&e, 0, 0, &w->root))
+        return false;
+    trim(&e);
+    return true;
+}

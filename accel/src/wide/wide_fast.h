@@ -1,0 +1,221 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * The walks of an instruction set, included by its file after
+ *     struct node_ray, node_ray_from(ray, limit), node_ray_limit(&n, limit), node_meets(&n, node,
+ *     begin): the children that may matter as bits, and where they begin;
+ *     struct leaf_ray, leaf_ray_from(ray), leaf_test(&l, f, block, any): tests a block of triangles;
+ *     true if the best hit became better.
+ * Included once for each set: every function here is static.
+ */
+#include "wide_isa.h"
+
+/* A child that waits, nearer ones with smaller numbers: where it begins, which is never negative,
+ * as the bits of a float, and its word. */
+typedef uint64_t waiting;
+
+static inline waiting waiting_of(float begin, uint32_t word)
+{
+    uint32_t bits;
+    memcpy(&bits, &begin, sizeof bits);
+    return (waiting)bits << 32 | word;
+}
+
+static inline uint32_t bits_of(float limit)
+{
+    uint32_t bits;
+    memcpy(&bits, &limit, sizeof bits);
+    return bits;
+}
+
+static inline uint32_t next_child(uint32_t *meets)
+{
+    const uint32_t i = (uint32_t)__builtin_ctz(*meets);
+    *meets &= *meets - 1;
+    return i;
+}
+
+/* Sorts what stands from `bottom`, farthest first. */
+static inline void sort_waiting(waiting *bottom, const waiting *top)
+{
+    for (waiting *at = bottom + 1; at < top; at++) {
+        const waiting moved = *at;
+        waiting *to = at;
+        for (; to > bottom && to[-1] < moved; to--)
+            *to = to[-1];
+        *to = moved;
+    }
+}
+
+/* Stacks all children that are met but the nearest, which it returns; meets is not 0. */
+__attribute__((always_inline)) static inline uint32_t descend(const struct wide_node *node,
+                                                              uint32_t meets, const float *begin,
+                                                              waiting **top)
+{
+    uint32_t i = next_child(&meets);
+    if (meets == 0)
+        return node->child[i];
+    const waiting a = waiting_of(begin[i], node->child[i]);
+    i = next_child(&meets);
+    const waiting b = waiting_of(begin[i], node->child[i]);
+    const waiting near = a < b ? a : b, far = a < b ? b : a;
+    if (meets == 0) {
+        *(*top)++ = far;
+        return (uint32_t)near;
+    }
+    i = next_child(&meets);
+    const waiting c = waiting_of(begin[i], node->child[i]);
+    const waiting farthest = far > c ? far : c, rest = far > c ? c : far;
+    waiting *bottom = *top;
+    bottom[0] = farthest;
+    bottom[1] = near > rest ? near : rest;
+    bottom[2] = near > rest ? rest : near;
+    if (meets == 0) {
+        *top += 2;
+        return (uint32_t)bottom[2];
+    }
+    *top += 3;
+    while (meets != 0) {
+        i = next_child(&meets);
+        *(*top)++ = waiting_of(begin[i], node->child[i]);
+    }
+    sort_waiting(bottom, *top);
+    return (uint32_t)*--*top;
+}
+
+static inline bool begin_fast(struct wide_fast *f, const accel *a, const struct wide *w,
+                              const accel_ray *ray)
+{
+    if (!wide_ray_from(&f->ray, w, ray->org, ray->dir, ray->tmin) || isnan(ray->tmax))
+        return false;
+    f->a = a;
+    f->caller = ray;
+    f->tmin = ray->tmin;
+    f->tmax = ray->tmax;
+    f->skip = primitives_id(&a->prims, ray->skip);
+    f->best = (double)INFINITY;
+    f->id = ACCEL_NONE;
+    f->prepared = false;
+    f->nodes = f->tests = 0;
+    return true;
+}
+
+static inline void end_fast(const struct wide_fast *f, accel_query *counters)
+{
+    if (!counters)
+        return;
+    counters->nodes += f->nodes;
+    counters->tests += f->tests;
+}
+
+/* A leaf's blocks. True if the best hit became better. */
+__attribute__((always_inline)) static inline bool test_blocks(const struct leaf_ray *l,
+                                                              struct wide_fast *f,
+                                                              const struct wide_block *b, bool any)
+{
+    bool better = false;
+    for (;; b = wide_next_block(b)) {
+        f->tests += b->count;
+        better |= leaf_test(l, f, b, any);
+        if (b->last || (any && better))
+            return better;
+    }
+}
+
+__attribute__((always_inline)) static inline enum wide_answer
+walk_fast(const accel *a, const struct wide *w, const accel_ray *ray, struct wide_fast *f, bool any)
+{
+    waiting stack[WIDE_MAX_DEPTH * (WIDE - 1) + 2], *top = stack;
+    _Alignas(64) float begin[WIDE];
+    if (!begin_fast(f, a, w, ray))
+        return WIDE_ANY_OTHER_WAY;
+    float limit = wide_limit(&f->ray, f->tmax);
+    struct node_ray n = node_ray_from(&f->ray, limit);
+    const struct leaf_ray l = leaf_ray_from(&f->ray);
+    uint32_t word = w->root;
+    for (;;) {
+        while (!(word & WIDE_LEAF)) {
+            const struct wide_node *node = wide_node_at(w, word);
+            const uint32_t meets = node_meets(&n, node, begin);
+            f->nodes++;
+            if (meets == 0)
+                goto next;
+            word = descend(node, meets, begin, &top);
+        }
+        if (test_blocks(&l, f, wide_leaf_at(w, word), any)) {
+            if (any)
+                return WIDE_HIT;
+            limit = wide_limit(&f->ray, f->best);
+            node_ray_limit(&n, limit);
+        }
+    next:
+        do {
+            if (top == stack)
+                return f->id != ACCEL_NONE ? WIDE_HIT : WIDE_MISSED;
+            word = (uint32_t)*--top;
+        } while (*top >> 32 > bits_of(limit));
+    }
+}
+
+static enum wide_answer closest(const accel *a, const struct wide *w, const accel_ray *ray,
+                                accel_hit *hit, accel_query *counters)
+{
+    struct wide_fast f;
+    const enum wide_answer answer = walk_fast(a, w, ray, &f, false);
+    if (answer == WIDE_ANY_OTHER_WAY)
+        return answer;
+    end_fast(&f, counters);
+    if (answer == WIDE_HIT) {
+        const accel_id name = primitives_name(&a->prims, f.id);
+        *hit = (accel_hit){f.best, f.u, f.v, name.geom, name.prim};
+    }
+    return answer;
+}
+
+static enum wide_answer any(const accel *a, const struct wide *w, const accel_ray *ray,
+                            accel_query *counters)
+{
+    struct wide_fast f;
+    const enum wide_answer answer = walk_fast(a, w, ray, &f, true);
+    if (answer != WIDE_ANY_OTHER_WAY)
+        end_fast(&f, counters);
+    return answer;
+}
+
+/* Where what matters to a query ends. */
+static inline float query_end(const struct wide_ray *r, const struct query *q)
+{
+    return wide_limit(r, q->limit < q->tmax ? q->limit : q->tmax);
+}
+
+static bool walk(const struct wide *w, struct query *q)
+{
+    waiting stack[WIDE_MAX_DEPTH * (WIDE - 1) + 2], *top = stack;
+    _Alignas(64) float begin[WIDE];
+    struct wide_ray ray;
+    if (q->point || !wide_ray_from(&ray, w, q->org, q->dir, q->tmin))
+        return false;
+    float limit = query_end(&ray, q);
+    struct node_ray n = node_ray_from(&ray, limit);
+    uint32_t word = w->root;
+    for (;;) {
+        while (!(word & WIDE_LEAF)) {
+            const struct wide_node *node = wide_node_at(w, word);
+            const uint32_t meets = node_meets(&n, node, begin);
+            q->nodes++;
+            if (meets == 0)
+                goto next;
+            word = descend(node, meets, begin, &top);
+        }
+        wide_test_leaf(w, q, word);
+        if (query_done(q))
+            return true;
+        limit = query_end(&ray, q);
+        node_ray_limit(&n, limit);
+    next:
+        do {
+            if (top == stack)
+                return true;
+            word = (uint32_t)*--top;
+        } while (*top >> 32 > bits_of(limit));
+    }
+}

@@ -1,0 +1,382 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * Growing the binary tree that a wide tree is collapsed from: top-down, cut between bins where the
+ * surface-area heuristic is lowest (Wald, "On fast Construction of SAH-based Bounding Volume
+ * Hierarchies", 2007), small ranges between any two of their items.
+ *
+ * On the way back up each node learns what its subtree costs at the least as j children of one wide
+ * node, for j = 1 .. 16: as one leaf, as one wide node, or as a children of its left side and j - a
+ * of its right one (after Wald, Benthin and Boulos 2008). A subtree of n primitives has no use for
+ * more than n slots, so most of these tables are short.
+ *
+ * Depth: a range at depth d has at most 2^(WIDE_MAX_DEPTH - d) items. It holds at the root, as there
+ * are fewer than 2^32; and a cut is only made if it holds on both sides, which the cut in the middle
+ * always does. So a range at WIDE_MAX_DEPTH has one item.
+ */
+#include "wide.h"
+
+#include <string.h>
+
+/* Bins an axis; the largest range that is sorted instead; most primitives of a leaf; items between
+ * two ticks, and those that could be looked at in the time that a leaf takes. */
+enum { BINS = 32, SWEEP = 8, LEAF = 8, TICK = 16384, TICK_LEAF = 8 };
+
+/* What a leaf costs beside its tests, in units of one test of all lanes. */
+#define LEAF_COST 0.3f
+
+struct bounds {
+    float lo[4], hi[4]; /* the fourth is not used: four are added as fast as three */
+};
+
+struct bin {
+    struct bounds box;
+    uint32_t count;
+};
+
+/* What is the same for all ranges. */
+struct grower {
+    struct build *build;
+    struct wide_rule rule;
+    struct wide_binary_tree *tree;
+    struct bin bins[3][BINS]; /* of the range that is cut */
+};
+
+/* A range of items, told apart by their keys: twice their centres, or where those coincide their
+ * lower corners. */
+struct range {
+    struct wide_item *at;
+    uint32_t count;
+    uint32_t limit; /* most of them that a side of a cut may have */
+    float weight;   /* key = lo + weight * hi */
+    struct bounds box, keys;
+};
+
+/* Where to cut a range: before a bin of an axis, or behind the first `left` items, which then are in
+ * order. */
+struct cut {
+    float cost;    /* the heuristic's, of both sides */
+    int axis, bin; /* axis < 0: none was found */
+    uint32_t left;
+};
+
+/* What a subtree costs at the least as j children, by j; more than `slots` make it no cheaper. */
+struct costs {
+    float as[WIDE + 1];
+    uint32_t slots;
+};
+
+static struct bounds nothing(void)
+{
+    const float inf = (float)INFINITY;
+    return (struct bounds){{inf, inf, inf, inf}, {-inf, -inf, -inf, -inf}};
+}
+
+static inline void add(struct bounds *b, const float lo[4], const float hi[4])
+{
+    for (int k = 0; k < 4; k++) {
+        b->lo[k] = lo[k] < b->lo[k] ? lo[k] : b->lo[k];
+        b->hi[k] = hi[k] > b->hi[k] ? hi[k] : b->hi[k];
+    }
+}
+
+/* The sides of an item; what stands in the fourth place is not used. */
+static inline struct bounds sides_of(const struct wide_item *item)
+{
+    struct bounds b;
+    memcpy(b.lo, item->lo, sizeof b.lo);
+    memcpy(b.hi, item->hi, sizeof b.hi);
+    b.lo[3] = 0.0f;
+    return b;
+}
+
+static inline float key_of(const struct range *r, const struct wide_item *item, int axis)
+{
+    return item->lo[axis] + r->weight * item->hi[axis];
+}
+
+static inline float area(const struct bounds *b)
+{
+    const float x = b->hi[0] - b->lo[0], y = b->hi[1] - b->lo[1], z = b->hi[2] - b->lo[2];
+    return x * y + y * z + z * x;
+}
+
+static bool tick(struct grower *g, const struct wide_item *at, uint32_t looked_at)
+{
+    const double done = (double)(at - g->tree->items) / (double)g->tree->count;
+    return build_step(g->build, looked_at, done);
+}
+
+/* Fills in the boxes. */
+static bool measure(struct grower *g, struct range *r)
+{
+    r->box = r->keys = nothing();
+    for (uint32_t i = 0; i < r->count; i++) {
+        const struct bounds b = sides_of(&r->at[i]);
+        float key[4];
+        for (int k = 0; k < 4; k++)
+            key[k] = b.lo[k] + r->weight * b.hi[k];
+        add(&r->box, b.lo, b.hi);
+        add(&r->keys, key, key);
+        if (i % TICK == TICK - 1 && !tick(g, r->at, TICK))
+            return false;
+    }
+    return true;
+}
+
+/* ------------------------------------------------------------------------------- bins ---- */
+
+/* Smaller extents would take the scale of the bins beyond float's range. */
+#define LEAST_EXTENT 0x1p-100f
+
+static inline bool keys_differ(const struct range *r, int axis)
+{
+    return r->keys.hi[axis] - r->keys.lo[axis] > LEAST_EXTENT;
+}
+
+static inline float bin_scale(const struct range *r, int axis)
+{
+    return keys_differ(r, axis) ? (BINS - 0.01f) / (r->keys.hi[axis] - r->keys.lo[axis]) : 0.0f;
+}
+
+static inline int bin_of(const struct range *r, float key, int axis, float scale)
+{
+    return (int)((key - r->keys.lo[axis]) * scale);
+}
+
+static bool fill_bins(struct grower *g, const struct range *r)
+{
+    const float scale[3] = {bin_scale(r, 0), bin_scale(r, 1), bin_scale(r, 2)};
+    for (int k = 0; k < 3; k++)
+        for (int i = 0; i < BINS; i++)
+            g->bins[k][i] = (struct bin){nothing(), 0};
+    for (uint32_t i = 0; i < r->count; i++) {
+        const struct bounds b = sides_of(&r->at[i]);
+        for (int k = 0; k < 3; k++) {
+            struct bin *bin = &g->bins[k][bin_of(r, b.lo[k] + r->weight * b.hi[k], k, scale[k])];
+            add(&bin->box, b.lo, b.hi);
+            bin->count++;
+        }
+        if (i % TICK == TICK - 1 && !tick(g, r->at, TICK))
+            return false;
+    }
+    return true;
+}
+
+/* Offers the cuts between two bins of an axis. */
+static void cut_bins(const struct grower *g, const struct range *r, int axis, struct cut *best)
+{
+    const struct bin *bins = g->bins[axis];
+    float right_cost[BINS];
+    struct bounds box = nothing();
+    uint32_t right = 0, left = 0;
+    for (int i = BINS - 1; i > 0; i--) {
+        add(&box, bins[i].box.lo, bins[i].box.hi);
+        right += bins[i].count;
+        right_cost[i] = right > 0 ? (float)right * area(&box) : (float)INFINITY;
+    }
+    box = nothing();
+    for (int i = 1; i < BINS; i++) {
+        add(&box, bins[i - 1].box.lo, bins[i - 1].box.hi);
+        left += bins[i - 1].count;
+        if (left == 0 || left > r->limit || r->count - left > r->limit)
+            continue;
+        const float cost = (float)left * area(&box) + right_cost[i];
+        if (cost < best->cost)
+            *best = (struct cut){cost, axis, i, left};
+    }
+}
+
+/* Moves the items before the cut to the front. */
+static void partition(const struct range *r, const struct cut *cut)
+{
+    const float scale = bin_scale(r, cut->axis);
+    uint32_t left = 0, right = r->count;
+    for (;;) {
+        while (left < right &&
+               bin_of(r, key_of(r, &r->at[left], cut->axis), cut->axis, scale) < cut->bin)
+            left++;
+        while (left < right &&
+               bin_of(r, key_of(r, &r->at[right - 1], cut->axis), cut->axis, scale) >= cut->bin)
+            right--;
+        if (left >= right)
+            return;
+        const struct wide_item moved = r->at[left];
+        r->at[left++] = r->at[--right];
+        r->at[right] = moved;
+    }
+}
+
+static bool cut_large(struct grower *g, const struct range *r, struct cut *cut)
+{
+    if (!fill_bins(g, r))
+        return false;
+    for (int k = 0; k < 3; k++)
+        if (keys_differ(r, k))
+            cut_bins(g, r, k, cut);
+    if (cut->axis >= 0)
+        partition(r, cut);
+    return true;
+}
+
+/* ------------------------------------------------------------------------------ sweeps ---- */
+
+static void sort_items(const struct range *r, int axis, struct wide_item out[SWEEP])
+{
+    for (uint32_t i = 0; i < r->count; i++) {
+        const float key = key_of(r, &r->at[i], axis);
+        uint32_t to = i;
+        for (; to > 0 && key_of(r, &out[to - 1], axis) > key; to--)
+            out[to] = out[to - 1];
+        out[to] = r->at[i];
+    }
+}
+
+/* Offers the cuts between two items in the order of one axis. */
+static void sweep(const struct range *r, const struct wide_item *sorted, int axis, struct cut *best)
+{
+    float right_cost[SWEEP];
+    struct bounds box = nothing();
+    for (uint32_t i = r->count - 1; i > 0; i--) {
+        const struct bounds b = sides_of(&sorted[i]);
+        add(&box, b.lo, b.hi);
+        right_cost[i] = (float)(r->count - i) * area(&box);
+    }
+    box = nothing();
+    for (uint32_t left = 1; left < r->count; left++) {
+        const struct bounds b = sides_of(&sorted[left - 1]);
+        add(&box, b.lo, b.hi);
+        const float cost = (float)left * area(&box) + right_cost[left];
+        if (cost < best->cost && left <= r->limit && r->count - left <= r->limit)
+            *best = (struct cut){cost, axis, 0, left};
+    }
+}
+
+static void cut_small(const struct range *r, struct cut *cut)
+{
+    struct wide_item sorted[3][SWEEP];
+    for (int k = 0; k < 3; k++) {
+        sort_items(r, k, sorted[k]);
+        sweep(r, sorted[k], k, cut);
+    }
+    if (cut->axis >= 0)
+        memcpy(r->at, sorted[cut->axis], r->count * sizeof *r->at);
+}
+
+/* ------------------------------------------------------------------------- what it costs ---- */
+
+static float leaf_cost(const struct grower *g, uint32_t count)
+{
+    const uint32_t lanes = g->rule.lanes;
+    return count <= LEAF ? LEAF_COST + (float)((count + lanes - 1) / lanes) : (float)INFINITY;
+}
+
+/* The cheapest sharing of `slots` slots between the sides. */
+static uint8_t share(const struct costs side[2], uint32_t slots, float *least)
+{
+    uint8_t best = 1;
+    *least = (float)INFINITY;
+    const uint32_t most = side[0].slots < slots - 1 ? side[0].slots : slots - 1;
+    for (uint32_t left = 1; left <= most; left++) {
+        const uint32_t right = slots - left < side[1].slots ? slots - left : side[1].slots;
+        const float cost = side[0].as[left] + side[1].as[right];
+        if (cost < *least) {
+            *least = cost;
+            best = (uint8_t)left;
+        }
+    }
+    return best;
+}
+
+/* Fills in a node's costs from those of its sides. */
+static void join(const struct grower *g, struct wide_binary *node, float surface,
+                 const struct costs side[2], struct costs *out)
+{
+    const float leaf = surface * leaf_cost(g, node->count);
+    const uint32_t slots = side[0].slots + side[1].slots;
+    float shared = 0.0f;
+    out->slots = slots < WIDE ? slots : WIDE;
+    for (uint32_t j = 2; j <= out->slots; j++) {
+        node->left[j] = share(side, j, &shared);
+        out->as[j] = shared;
+    }
+    const float inner = surface * (float)g->rule.node_cost + shared;
+    node->left_of_all = node->left[out->slots];
+    node->leaf = leaf <= inner;
+    out->as[1] = node->leaf ? leaf : inner;
+    for (uint32_t j = 2; j <= out->slots; j++) {
+        if (out->as[j - 1] <= out->as[j]) {
+            out->as[j] = out->as[j - 1];
+            node->left[j] = 0;
+        }
+    }
+    while (out->slots > 1 && node->left[out->slots] == 0)
+        out->slots--;
+    node->slots = (uint8_t)out->slots;
+}
+
+/* ------------------------------------------------------------------------------ growing ---- */
+
+static uint32_t most_items(uint32_t depth)
+{
+    return WIDE_MAX_DEPTH - depth < 32 ? 1u << (WIDE_MAX_DEPTH - depth) : UINT32_MAX;
+}
+
+/* Splits a range in two: *left items stand before the cut. Where nothing tells them apart, or where
+ * the tree would become too deep, in the middle. */
+static bool split(struct grower *g, struct range *r, uint32_t *left)
+{
+    struct cut cut = {(float)INFINITY, -1, 0, 0};
+    if (r->count <= SWEEP) {
+        cut_small(r, &cut);
+    } else {
+        if (!keys_differ(r, 0) && !keys_differ(r, 1) && !keys_differ(r, 2)) {
+            r->weight = 0.0f;
+            if (!measure(g, r))
+                return false;
+        }
+        if (!cut_large(g, r, &cut))
+            return false;
+    }
+    *left = cut.axis >= 0 ? cut.left : r->count / 2;
+    return true;
+}
+
+static bool grow(struct grower *g, uint32_t first, uint32_t count, uint32_t place, uint32_t depth,
+                 struct costs *out)
+{
+    struct wide_binary *node = &g->tree->nodes[place];
+    struct range r = {.at = g->tree->items + first, .count = count, .weight = 1.0f};
+    struct costs side[2];
+    uint32_t left;
+    if (!measure(g, &r))
+        return false;
+    memcpy(node->lo, r.box.lo, sizeof node->lo);
+    memcpy(node->hi, r.box.hi, sizeof node->hi);
+    node->first = first;
+    node->count = count;
+    node->right = 0;
+    node->slots = 1;
+    node->leaf = true;
+    if (count == 1) {
+        *out = (struct costs){.as[1] = area(&r.box) * leaf_cost(g, 1), .slots = 1};
+        return tick(g, r.at, TICK_LEAF);
+    }
+    r.limit = most_items(depth + 1);
+    if (!split(g, &r, &left))
+        return false;
+    node->right = place + 2 * left;
+    if (!grow(g, first, left, place + 1, depth + 1, &side[0]) ||
+        !grow(g, first + left, count - left, node->right, depth + 1, &side[1]))
+        return false;
+    join(g, node, area(&r.box), side, out);
+    return true;
+}
+
+bool wide_grow(struct build *build, const struct wide *w, struct wide_rule rule,
+               struct wide_binary_tree *tree)
+{
+    struct grower g = {.build = build, .rule = rule, .tree = tree};
+    struct costs costs;
+    (void)w;
+    return grow(&g, 0, tree->count, 0, 0, &costs);
+}

@@ -1,0 +1,54 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * What the walks of all instruction sets share: the list of them, and the whole rule for the few
+ * triangles that the lanes cannot decide.
+ */
+#include "wide_isa.h"
+
+#include "../box.h"
+#include "../triangle.h"
+
+#if defined(__x86_64__) && defined(__GNUC__)
+#define X86 1
+extern const struct wide_isa wide_avx512, wide_avx2;
+#endif
+
+const struct wide_isa *const wide_isas[] = {
+#if defined(X86)
+    &wide_avx512, &wide_avx2,
+#endif
+    &wide_portable, NULL};
+
+static void prepare(struct wide_fast *f)
+{
+    query_prepare(&f->q, f->a, f->caller);
+    f->prepared = true;
+}
+
+bool wide_test_slowly(struct wide_fast *f, const struct wide_block *b, unsigned i)
+{
+    const uint32_t id = wide_block_ids(b)[i];
+    double vertices[9], t, u, v;
+    if (id == f->skip)
+        return false;
+    if (!f->prepared)
+        prepare(f);
+    wide_vertices(b, i, vertices);
+    if (!triangle_hit(&f->q, vertices, &t, &u, &v) || isnan(t))
+        return false;
+    accel_box box = box_empty();
+    for (int corner = 0; corner < 3; corner++)
+        box_add_point(&box, vertices + 3 * corner);
+    box = box_padded(&box);
+    const struct interval s = query_box(&f->q, &box);
+    if (!(s.a <= s.z))
+        return false;
+    const double key = t < s.a ? s.a : t > s.z ? s.z : t;
+    if (!(f->tmin < key && key < f->tmax) || key > f->best || (key == f->best && id >= f->id))
+        return false;
+    f->best = key;
+    f->id = id;
+    f->u = u;
+    f->v = v;
+    return true;
+}

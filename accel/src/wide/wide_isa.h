@@ -1,0 +1,54 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * The seam for instruction sets: what a wide tree is walked by, compiled once for each set from
+ * wide_fast.h, and chosen when a structure is built.
+ */
+#ifndef ACCEL_WIDE_ISA_H
+#define ACCEL_WIDE_ISA_H
+
+#include "wide.h"
+#include "wide_ray.h"
+
+/* The answer of a fast walk. */
+enum wide_answer {
+    WIDE_MISSED,
+    WIDE_HIT,
+    WIDE_ANY_OTHER_WAY /* the ray is not one for this walk; nothing was done */
+};
+
+struct wide_isa {
+    const char *name;
+    bool (*works_here)(void); /* does the processor have it? */
+    struct wide_rule rule;    /* what its leaves look like */
+    /* Only where there is nothing but bounded triangles. */
+    enum wide_answer (*closest)(const accel *a, const struct wide *w, const accel_ray *ray,
+                                accel_hit *hit, accel_query *counters);
+    enum wide_answer (*any)(const accel *a, const struct wide *w, const accel_ray *ray,
+                            accel_query *counters);
+    /* Any query but a point query, over any primitives: false if the ray is not one for this walk. */
+    bool (*walk)(const struct wide *w, struct query *q);
+};
+
+/* The sets that are compiled in, best first, NULL-ended; the last one works everywhere. */
+extern const struct wide_isa *const wide_isas[];
+extern const struct wide_isa wide_portable;
+
+/* A closest or any query over triangles under way. */
+struct wide_fast {
+    struct wide_ray ray;
+    const accel *a;
+    const accel_ray *caller;
+    double tmin, tmax;
+    uint32_t skip; /* id, or ACCEL_NONE */
+    double best;   /* key of the best hit so far, infinity without one */
+    double u, v;   /* its weights */
+    uint32_t id;   /* its triangle; ACCEL_NONE without one */
+    bool prepared; /* q is */
+    uint64_t nodes, tests;
+    struct query q; /* for what goes the whole way */
+};
+
+/* The i-th triangle of a block by the whole rule of query.h. True if it is the best hit so far. */
+bool wide_test_slowly(struct wide_fast *f, const struct wide_block *b, unsigned i);
+
+#endif

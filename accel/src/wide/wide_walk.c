@@ -1,0 +1,97 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * The walk of any query on any ray: S of every child by the rule of query.h, in double. The fast
+ * walks are judged by it, and leave to it what they do not serve.
+ */
+#include "wide.h"
+
+#include <string.h>
+
+#include "../box.h"
+
+void wide_vertices(const struct wide_block *b, unsigned i, double out[9])
+{
+    const void *data = wide_block_data(b);
+    const unsigned n = b->count;
+    if (b->type == WIDE_DOUBLES) {
+        for (unsigned c = 0; c < 9; c++)
+            out[c] = ((const double *)data)[c * n + i];
+        return;
+    }
+    const float *at = data;
+    const uint8_t *corner = (const uint8_t *)(at + 3 * b->vertices);
+    for (unsigned c = 0; c < 9; c++) {
+        const unsigned place =
+            b->type == WIDE_FLOATS ? c * n + i
+                                   : c % 3 * b->vertices + corner[c / 3 * WIDE_BLOCK + i];
+        out[c] = (double)at[place];
+    }
+}
+
+void wide_test_leaf(const struct wide *w, struct query *q, uint32_t word)
+{
+    const struct wide_block *b = wide_leaf_at(w, word);
+    for (;; b = wide_next_block(b)) {
+        const uint32_t *ids = wide_block_ids(b);
+        if (b->type == WIDE_LIST)
+            query_test_list(q, ids, b->count);
+        for (unsigned i = 0; i < b->count && b->type != WIDE_LIST && !query_done(q); i++) {
+            double vertices[9];
+            wide_vertices(b, i, vertices);
+            query_test_triangle(q, ids[i], vertices);
+        }
+        if (b->last || query_done(q))
+            return;
+    }
+}
+
+static accel_box child_box(const struct wide *w, const struct wide_node *node, int i)
+{
+    accel_box box;
+    for (int k = 0; k < 3; k++) {
+        box.lo[k] = (double)node->plane[k][0][i] / w->scale;
+        box.hi[k] = (double)node->plane[k][1][i] / w->scale;
+    }
+    return box;
+}
+
+/* A child that waits. */
+struct waiting {
+    double begin;
+    uint32_t word;
+};
+
+/* Puts the children that may matter on the stack, nearest last. */
+static struct waiting *push(const struct wide *w, const struct wide_node *node, struct query *q,
+                            struct waiting *top)
+{
+    struct waiting *bottom = top;
+    for (int i = 0; i < WIDE && node->plane[0][0][i] <= node->plane[0][1][i]; i++) {
+        const accel_box box = child_box(w, node, i);
+        const struct interval s = query_box(q, &box);
+        if (!query_meets(q, s))
+            continue;
+        struct waiting *at = top++;
+        for (; at > bottom && at[-1].begin < s.a; at--)
+            *at = at[-1];
+        *at = (struct waiting){s.a, node->child[i]};
+    }
+    return top;
+}
+
+void wide_walk(const struct wide *w, struct query *q)
+{
+    struct waiting stack[WIDE_MAX_DEPTH * (WIDE - 1) + 2], *top = stack;
+    *top++ = (struct waiting){-(double)INFINITY, w->root};
+    while (top > stack && !query_done(q)) {
+        const struct waiting at = *--top;
+        if (at.begin > q->limit)
+            continue;
+        if (at.word & WIDE_LEAF) {
+            wide_test_leaf(w, q, at.word);
+            continue;
+        }
+        q->nodes++;
+        top = push(w, wide_node_at(w, at.word), q, top);
+    }
+}
