@@ -5,6 +5,7 @@
 #include "config.h"
 #include "box.h"
 #include "kind.h"
+#include "wide/wide.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -239,10 +240,12 @@ void accel_describe(const accel *a, accel_info *info)
 
 bool accel_padded_box(const accel *a, accel_id id, accel_box *box)
 {
-    const struct primitives *p = &a->prims;
-    if (id.geom >= p->geometry_count || id.prim >= p->geometry[id.geom].count)
+    const uint32_t number = primitives_id(&a->prims, id);
+    if (number == ACCEL_NONE)
         return false;
-    *box = p->box[p->geometry[id.geom].first + id.prim];
+    if (!a->prims.box && a->prims.count > 0)
+        return wide_find_box(a->fast, number, box);
+    *box = a->prims.box[number];
     return box->lo[0] <= box->hi[0];
 }
 

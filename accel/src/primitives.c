@@ -407,6 +407,17 @@ bool primitives_move_triangles(struct build *build, const uint32_t *ids, size_t 
     return true;
 }
 
+void primitives_leave(struct memory *m, struct primitives *p)
+{
+    for (uint32_t g = 0; g < p->geometry_count; g++)
+        free_data(m, &p->geometry[g]);
+    memory_resize(m, p->box, p->count * sizeof *p->box, 0);
+    memory_resize(m, p->bounded.at, p->bounded.room * sizeof *p->bounded.at, 0);
+    p->box = NULL;
+    p->bounded.at = NULL;
+    p->bounded.room = 0;
+}
+
 void primitives_free(struct memory *m, struct primitives *p)
 {
     for (uint32_t g = 0; g < p->geometry_count; g++)

@@ -37,7 +37,8 @@ struct primitives {
     struct geometry *geometry; /* geometry_count of them, by first id */
     uint32_t geometry_count;   /* of the scene */
     uint32_t *geometry_of;     /* by id; NULL if there is but one geometry */
-    accel_box *box;            /* P' by id; empty (lo > hi) if skipped, endless if unbounded */
+    accel_box *box;            /* P' by id; empty (lo > hi) if skipped, endless if unbounded; NULL
+                                  if the kind makes them again: see primitives_leave */
     uint32_t count;            /* ids */
     struct ids bounded;        /* what structures are built over, rising */
     struct ids unbounded;      /* objects with an infinite side, rising */
@@ -54,6 +55,10 @@ bool primitives_copy(struct build *build, const accel_scene *scene);
  * then owns, and frees the geometries' own. Otherwise *out is NULL. False if there is no memory. */
 bool primitives_move_triangles(struct build *build, const uint32_t *ids, size_t count,
                                double **out);
+
+/* Where there are only bounded triangles, and the kind keeps their vertices: frees vertices, boxes
+ * and the list of ids (not its count), for good. */
+void primitives_leave(struct memory *m, struct primitives *p);
 
 /* Those of the ids whose boxes meet a cell, *kept of them in a new array that the caller free()s:
  * for checks. NULL: no memory, and *error says so. */

@@ -58,6 +58,7 @@ struct wide_block {
 };
 
 struct wide_isa;
+struct clustering;
 
 struct wide {
     unsigned char *base; /* the nodes and leaves, aligned to 64 */
@@ -109,15 +110,30 @@ static inline const uint32_t *wide_block_ids(const struct wide_block *b)
 /* The vertices of the i-th triangle of a block: 9 doubles, as primitives keep them. */
 void wide_vertices(const struct wide_block *b, unsigned i, double out[9]);
 
-/* What of a build is not the tree. */
+/* P' of the i-th triangle of a block. */
+accel_box wide_triangle_box(const struct wide_block *b, unsigned i);
+
+/* P' of a triangle by its id: false if no leaf holds it. Goes through the whole tree. */
+bool wide_find_box(const struct wide *w, uint32_t id, accel_box *box);
+
+/* What leaves look like and cost. */
 struct wide_rule {
     unsigned lanes;   /* primitives that a leaf tests at once */
     bool pool;        /* share vertices */
     double node_cost; /* of a visit, in units of testing `lanes` primitives */
 };
 
-/* Builds the tree over all bounded primitives. */
-bool wide_build(struct build *build, struct wide *w, struct wide_rule rule);
+/* How the binary tree is cut. */
+enum wide_cut {
+    WIDE_BY_COST,    /* anywhere */
+    WIDE_BY_OCTANTS, /* three levels in turn along three axes: an octree whose planes lie where the
+                        cost is lowest, as in Whang et al., "Octree-R", 1995 */
+};
+
+/* Builds the tree over all bounded primitives with isa's leaves. With `clusters` no node below the
+ * ones that part clusters holds primitives of two. */
+bool wide_build(struct build *build, struct wide *w, const struct wide_isa *isa, enum wide_cut cut,
+                const struct clustering *clusters);
 
 void wide_free(struct memory *m, struct wide *w);
 
@@ -153,14 +169,18 @@ struct wide_binary {
 };
 
 struct wide_binary_tree {
+    const struct clustering *clusters; /* or NULL */
     struct wide_item *items;   /* in the order of the leaves */
     struct wide_binary *nodes; /* 2n - 1 places; 0 is the root */
     uint32_t count;            /* n */
 };
 
 /* Grows it, and decides by dynamic programming which of its nodes become wide nodes and leaves. */
-bool wide_grow(struct build *build, const struct wide *w, struct wide_rule rule,
+bool wide_grow(struct build *build, const struct wide *w, struct wide_rule rule, enum wide_cut cut,
                struct wide_binary_tree *tree);
+
+/* A primitive's box or a cluster's, scaled, rounded outward. */
+struct wide_item wide_item_of(const struct wide *w, const accel_box *box, uint32_t id);
 
 /* Lays out nodes and leaves. */
 bool wide_emit(struct build *build, struct wide *w, struct wide_rule rule,

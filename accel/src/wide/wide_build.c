@@ -2,7 +2,7 @@
  *
  * The life of a wide tree: see wide.h.
  */
-#include "wide.h"
+#include "wide_isa.h"
 
 #include <string.h>
 
@@ -36,23 +36,14 @@ static float up(double x)
     return (double)f >= x ? f : nextafterf(f, (float)INFINITY);
 }
 
-static bool gather(struct build *build, const struct wide *w, struct wide_binary_tree *tree)
+struct wide_item wide_item_of(const struct wide *w, const accel_box *box, uint32_t id)
 {
-    const struct primitives *p = &build->a->prims;
-    for (uint32_t i = 0; i < tree->count; i++) {
-        const uint32_t id = p->bounded.at[i];
-        const accel_box *box = &p->box[id];
-        struct wide_item *item = &tree->items[i];
-        for (int k = 0; k < 3; k++) {
-            item->lo[k] = down(box->lo[k] * w->scale);
-            item->hi[k] = up(box->hi[k] * w->scale);
-        }
-        item->id = id;
-        item->unused = 0;
-        if (i % 16384 == 0 && !build_tick(build, 0.0))
-            return false;
+    struct wide_item item = {.id = id};
+    for (int k = 0; k < 3; k++) {
+        item.lo[k] = down(box->lo[k] * w->scale);
+        item.hi[k] = up(box->hi[k] * w->scale);
     }
-    return true;
+    return item;
 }
 
 static bool allocate(struct build *build, struct wide_binary_tree *tree)
@@ -74,18 +65,20 @@ static void release(struct build *build, struct wide_binary_tree *tree)
         memory_resize(m, tree->nodes, (2 * n - 1) * sizeof *tree->nodes, 0);
 }
 
-bool wide_build(struct build *build, struct wide *w, struct wide_rule rule)
+bool wide_build(struct build *build, struct wide *w, const struct wide_isa *isa, enum wide_cut cut,
+                const struct clustering *clusters)
 {
     const struct primitives *p = &build->a->prims;
-    struct wide_binary_tree tree = {.count = (uint32_t)p->bounded.count};
+    struct wide_binary_tree tree = {.count = (uint32_t)p->bounded.count, .clusters = clusters};
     double largest;
+    w->isa = isa;
     w->scale = scale_of(&p->bounds, &largest);
     w->fast = largest <= FAST_COORDINATE;
     build_phase(build, "tree");
-    bool fine = allocate(build, &tree) && gather(build, w, &tree) && wide_grow(build, w, rule, &tree);
+    bool fine = allocate(build, &tree) && wide_grow(build, w, isa->rule, cut, &tree);
     if (fine) {
         build_phase(build, "layout");
-        fine = wide_emit(build, w, rule, &tree);
+        fine = wide_emit(build, w, isa->rule, &tree);
     }
     release(build, &tree);
     return fine;

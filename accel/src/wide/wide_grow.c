@@ -11,15 +11,22 @@
  *
  * Depth: a range at depth d has at most 2^(WIDE_MAX_DEPTH - d) items. It holds at the root, as there
  * are fewer than 2^32; and a cut is only made if it holds on both sides, which the cut in the middle
- * always does. So a range at WIDE_MAX_DEPTH has one item.
+ * always does. So a range at WIDE_MAX_DEPTH has one item. Clusters are parted in the same way within
+ * CLUSTER_DEPTH levels.
  */
 #include "wide.h"
 
 #include <string.h>
 
+#include "../cluster.h"
+
 /* Bins an axis; the largest range that is sorted instead; most primitives of a leaf; items between
  * two ticks, and those that could be looked at in the time that a leaf takes. */
 enum { BINS = 32, SWEEP = 8, LEAF = 8, TICK = 16384, TICK_LEAF = 8 };
+
+/* All three axes. Levels that clusters may take of the tree: below, 48 are left for 2^32 primitives.
+ */
+enum { ALL_AXES = 7, CLUSTER_DEPTH = 48 };
 
 /* What a leaf costs beside its tests, in units of one test of all lanes. */
 #define LEAF_COST 0.3f
@@ -36,7 +43,9 @@ struct bin {
 /* What is the same for all ranges. */
 struct grower {
     struct build *build;
+    const struct wide *w;
     struct wide_rule rule;
+    enum wide_cut cut;
     struct wide_binary_tree *tree;
     struct bin bins[3][BINS]; /* of the range that is cut */
 };
@@ -48,6 +57,7 @@ struct range {
     uint32_t count;
     uint32_t limit; /* most of them that a side of a cut may have */
     float weight;   /* key = lo + weight * hi */
+    uint32_t axes;  /* bits: those that it may be cut along */
     struct bounds box, keys;
 };
 
@@ -211,7 +221,7 @@ static bool cut_large(struct grower *g, const struct range *r, struct cut *cut)
     if (!fill_bins(g, r))
         return false;
     for (int k = 0; k < 3; k++)
-        if (keys_differ(r, k))
+        if (keys_differ(r, k) && r->axes >> k & 1)
             cut_bins(g, r, k, cut);
     if (cut->axis >= 0)
         partition(r, cut);
@@ -255,6 +265,8 @@ static void cut_small(const struct range *r, struct cut *cut)
 {
     struct wide_item sorted[3][SWEEP];
     for (int k = 0; k < 3; k++) {
+        if (!(r->axes >> k & 1))
+            continue;
         sort_items(r, k, sorted[k]);
         sweep(r, sorted[k], k, cut);
     }
@@ -316,9 +328,17 @@ static void join(const struct grower *g, struct wide_binary *node, float surface
 
 /* ------------------------------------------------------------------------------ growing ---- */
 
-static uint32_t most_items(uint32_t depth)
+/* What a range `levels` above the deepest may hold. */
+static uint32_t most_items(uint32_t levels)
 {
-    return WIDE_MAX_DEPTH - depth < 32 ? 1u << (WIDE_MAX_DEPTH - depth) : UINT32_MAX;
+    return levels < 32 ? 1u << levels : UINT32_MAX;
+}
+
+/* The axes that the next cut may be along. */
+static uint32_t axes_after(const struct grower *g, uint32_t axes, int cut)
+{
+    const uint32_t left = cut < 0 ? axes : axes & ~(1u << cut);
+    return g->cut == WIDE_BY_COST || left == 0 ? ALL_AXES : left;
 }
 
 /* Splits a range in two: *left items stand before the cut. Where nothing tells them apart, or where
@@ -336,47 +356,135 @@ static bool split(struct grower *g, struct range *r, uint32_t *left)
         }
         if (!cut_large(g, r, &cut))
             return false;
+        if (cut.axis < 0 && r->axes != ALL_AXES) {
+            r->axes = ALL_AXES;
+            if (!cut_large(g, r, &cut))
+                return false;
+        }
     }
+    r->axes = axes_after(g, r->axes, cut.axis);
     *left = cut.axis >= 0 ? cut.left : r->count / 2;
     return true;
 }
 
-static bool grow(struct grower *g, uint32_t first, uint32_t count, uint32_t place, uint32_t depth,
-                 struct costs *out)
+/* Fills in a node over `count` items from the `first` on, as a leaf. */
+static void set_node(struct wide_binary *node, const struct bounds *box, uint32_t first,
+                     uint32_t count)
 {
-    struct wide_binary *node = &g->tree->nodes[place];
-    struct range r = {.at = g->tree->items + first, .count = count, .weight = 1.0f};
-    struct costs side[2];
-    uint32_t left;
-    if (!measure(g, &r))
-        return false;
-    memcpy(node->lo, r.box.lo, sizeof node->lo);
-    memcpy(node->hi, r.box.hi, sizeof node->hi);
+    memcpy(node->lo, box->lo, sizeof node->lo);
+    memcpy(node->hi, box->hi, sizeof node->hi);
     node->first = first;
     node->count = count;
     node->right = 0;
     node->slots = 1;
     node->leaf = true;
+}
+
+static bool grow(struct grower *g, uint32_t first, uint32_t count, uint32_t place, uint32_t depth,
+                 uint32_t axes, struct costs *out)
+{
+    struct wide_binary *node = &g->tree->nodes[place];
+    struct range r = {
+        .at = g->tree->items + first, .count = count, .weight = 1.0f, .axes = axes};
+    struct costs side[2];
+    uint32_t left;
+    if (!measure(g, &r))
+        return false;
+    set_node(node, &r.box, first, count);
     if (count == 1) {
         *out = (struct costs){.as[1] = area(&r.box) * leaf_cost(g, 1), .slots = 1};
         return tick(g, r.at, TICK_LEAF);
     }
-    r.limit = most_items(depth + 1);
+    r.limit = most_items(WIDE_MAX_DEPTH - depth - 1);
     if (!split(g, &r, &left))
         return false;
     node->right = place + 2 * left;
-    if (!grow(g, first, left, place + 1, depth + 1, &side[0]) ||
-        !grow(g, first + left, count - left, node->right, depth + 1, &side[1]))
+    if (!grow(g, first, left, place + 1, depth + 1, r.axes, &side[0]) ||
+        !grow(g, first + left, count - left, node->right, depth + 1, r.axes, &side[1]))
         return false;
     join(g, node, area(&r.box), side, out);
     return true;
 }
 
-bool wide_grow(struct build *build, const struct wide *w, struct wide_rule rule,
+/* ----------------------------------------------------------------------------- clusters ---- */
+
+/* Makes items of some primitives. */
+static bool gather(struct grower *g, const uint32_t *ids, uint32_t first, uint32_t count)
+{
+    const accel_box *box = g->build->a->prims.box;
+    struct wide_item *items = g->tree->items + first;
+    for (uint32_t i = 0; i < count; i++) {
+        items[i] = wide_item_of(g->w, &box[ids[i]], ids[i]);
+        if (i % TICK == TICK - 1 && !tick(g, items, 0))
+            return false;
+    }
+    return true;
+}
+
+static uint32_t count_primitives(const struct grower *g, const struct wide_item *clusters,
+                                 uint32_t count)
+{
+    uint32_t sum = 0;
+    for (uint32_t i = 0; i < count; i++)
+        sum += g->tree->clusters->clusters.at[clusters[i].id].count;
+    return sum;
+}
+
+static bool grow_cluster(struct grower *g, uint32_t number, uint32_t first, uint32_t place,
+                         uint32_t depth, struct costs *out)
+{
+    const struct clustering *c = g->tree->clusters;
+    const struct cluster *cluster = &c->clusters.at[number];
+    return gather(g, c->order.at + cluster->first, first, cluster->count) &&
+           grow(g, first, cluster->count, place, depth, ALL_AXES, out);
+}
+
+/* Grows the subtree over some clusters, whose primitives will stand from the `first` item on. */
+static bool grow_clusters(struct grower *g, struct wide_item *at, uint32_t count, uint32_t first,
+                          uint32_t place, uint32_t depth, struct costs *out)
+{
+    struct wide_binary *node = &g->tree->nodes[place];
+    struct range r = {.at = at, .count = count, .weight = 1.0f, .axes = ALL_AXES};
+    struct costs side[2];
+    uint32_t left;
+    if (count == 1)
+        return grow_cluster(g, at->id, first, place, depth, out);
+    r.limit = most_items(CLUSTER_DEPTH - depth - 1);
+    if (!measure(g, &r) || !split(g, &r, &left))
+        return false;
+    const uint32_t before = count_primitives(g, at, left);
+    set_node(node, &r.box, first, before + count_primitives(g, at + left, count - left));
+    node->right = place + 2 * before;
+    if (!grow_clusters(g, at, left, first, place + 1, depth + 1, &side[0]) ||
+        !grow_clusters(g, at + left, count - left, first + before, node->right, depth + 1,
+                       &side[1]))
+        return false;
+    join(g, node, area(&r.box), side, out);
+    return true;
+}
+
+static bool grow_hierarchy(struct grower *g, struct costs *out)
+{
+    const struct clustering *c = g->tree->clusters;
+    struct memory *m = &g->build->a->memory;
+    const size_t bytes = c->clusters.count * sizeof(struct wide_item);
+    struct wide_item *clusters = memory_resize(m, NULL, 0, bytes);
+    if (!clusters)
+        return build_no_memory(g->build);
+    for (uint32_t i = 0; i < c->clusters.count; i++)
+        clusters[i] = wide_item_of(g->w, &c->clusters.at[i].box, i);
+    const bool fine = grow_clusters(g, clusters, (uint32_t)c->clusters.count, 0, 0, 0, out);
+    memory_resize(m, clusters, bytes, 0);
+    return fine;
+}
+
+bool wide_grow(struct build *build, const struct wide *w, struct wide_rule rule, enum wide_cut cut,
                struct wide_binary_tree *tree)
 {
-    struct grower g = {.build = build, .rule = rule, .tree = tree};
+    struct grower g = {.build = build, .w = w, .rule = rule, .cut = cut, .tree = tree};
     struct costs costs;
-    (void)w;
-    return grow(&g, 0, tree->count, 0, 0, &costs);
+    if (tree->clusters)
+        return grow_hierarchy(&g, &costs);
+    return gather(&g, build->a->prims.bounded.at, 0, tree->count) &&
+           grow(&g, 0, tree->count, 0, 0, ALL_AXES, &costs);
 }

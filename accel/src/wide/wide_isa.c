@@ -36,10 +36,7 @@ bool wide_test_slowly(struct wide_fast *f, const struct wide_block *b, unsigned 
     wide_vertices(b, i, vertices);
     if (!triangle_hit(&f->q, vertices, &t, &u, &v) || isnan(t))
         return false;
-    accel_box box = box_empty();
-    for (int corner = 0; corner < 3; corner++)
-        box_add_point(&box, vertices + 3 * corner);
-    box = box_padded(&box);
+    const accel_box box = wide_triangle_box(b, i);
     const struct interval s = query_box(&f->q, &box);
     if (!(s.a <= s.z))
         return false;

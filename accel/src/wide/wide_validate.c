@@ -25,12 +25,18 @@ static bool broken(const struct checker *c, const char *what, uint64_t number)
     return false;
 }
 
-/* P', scaled, lies in the box. */
-static bool holds(const struct checker *c, const float lo[3], const float hi[3], uint32_t id)
+static accel_box padded_box(const struct checker *c, const struct wide_block *b, unsigned i)
 {
-    const accel_box *p = &c->a->prims.box[id];
+    return b->type == WIDE_LIST ? c->a->prims.box[wide_block_ids(b)[i]] : wide_triangle_box(b, i);
+}
+
+/* P', scaled, lies in the box. */
+static bool holds(const struct checker *c, const float lo[3], const float hi[3],
+                  const struct wide_block *b, unsigned i)
+{
+    const accel_box p = padded_box(c, b, i);
     for (int k = 0; k < 3; k++)
-        if (!((double)lo[k] <= p->lo[k] * c->w->scale && p->hi[k] * c->w->scale <= (double)hi[k]))
+        if (!((double)lo[k] <= p.lo[k] * c->w->scale && p.hi[k] * c->w->scale <= (double)hi[k]))
             return false;
     return true;
 }
@@ -44,7 +50,7 @@ static bool check_block(struct checker *c, size_t at, const float lo[3], const f
         const uint32_t id = wide_block_ids(b)[i];
         if (id >= c->a->prims.count || c->seen[id]++)
             return broken(c, "out of range or in two leaves, primitive", id);
-        if (!holds(c, lo, hi, id))
+        if (!holds(c, lo, hi, b, i))
             return broken(c, "a leaf's box does not hold primitive", id);
         c->found++;
     }

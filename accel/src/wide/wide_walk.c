@@ -28,6 +28,46 @@ void wide_vertices(const struct wide_block *b, unsigned i, double out[9])
     }
 }
 
+accel_box wide_triangle_box(const struct wide_block *b, unsigned i)
+{
+    double vertices[9];
+    accel_box box = box_empty();
+    wide_vertices(b, i, vertices);
+    for (int corner = 0; corner < 3; corner++)
+        box_add_point(&box, vertices + 3 * corner);
+    return box_padded(&box);
+}
+
+static bool find_in_leaf(const struct wide_block *b, uint32_t id, accel_box *box)
+{
+    for (;; b = wide_next_block(b)) {
+        for (unsigned i = 0; i < b->count; i++) {
+            if (wide_block_ids(b)[i] == id) {
+                *box = wide_triangle_box(b, i);
+                return true;
+            }
+        }
+        if (b->last)
+            return false;
+    }
+}
+
+static bool find_below(const struct wide *w, uint32_t word, uint32_t id, accel_box *box)
+{
+    if (word & WIDE_LEAF)
+        return find_in_leaf(wide_leaf_at(w, word), id, box);
+    const struct wide_node *node = wide_node_at(w, word);
+    for (int i = 0; i < WIDE && node->plane[0][0][i] <= node->plane[0][1][i]; i++)
+        if (find_below(w, node->child[i], id, box))
+            return true;
+    return false;
+}
+
+bool wide_find_box(const struct wide *w, uint32_t id, accel_box *box)
+{
+    return find_below(w, w->root, id, box);
+}
+
 void wide_test_leaf(const struct wide *w, struct query *q, uint32_t word)
 {
     const struct wide_block *b = wide_leaf_at(w, word);

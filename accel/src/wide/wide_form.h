@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * The wide form of a kind: the parts that all kinds that have it share.
+ */
+#ifndef ACCEL_WIDE_FORM_H
+#define ACCEL_WIDE_FORM_H
+
+#include "wide_isa.h"
+
+extern const char *const wide_isa_words[];
+
+#define WIDE_ISA_OPTION                                                                            \
+    {                                                                                              \
+        .key = "isa", .meaning = "instruction set of the walks; auto: the best that is there",      \
+        .words = wide_isa_words, .standard = NAN                                                   \
+    }
+
+/* Builds the tree and fills in build->a->info; *isa is the option's value. */
+bool wide_form_build(struct build *build, struct wide *w, const double *isa, enum wide_cut cut,
+                     const struct clustering *clusters);
+
+void wide_form_walk(const struct wide *w, struct query *q);
+
+#endif
