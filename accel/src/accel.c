@@ -5,7 +5,7 @@
 #include "config.h"
 #include "box.h"
 #include "kind.h"
-#include "wide/wide.h"
+#include "wide/wide_isa.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -244,7 +244,7 @@ bool accel_padded_box(const accel *a, accel_id id, accel_box *box)
     if (number == ACCEL_NONE)
         return false;
     if (!a->prims.box && a->prims.count > 0)
-        return wide_find_box(a->fast, number, box);
+        return a->fast->isa->find_box(a->fast, number, box);
     *box = a->prims.box[number];
     return box->lo[0] <= box->hi[0];
 }

@@ -6,6 +6,10 @@
  * tree (hoo_pairing.h). The tree is walked nearest child first; clusters may overlap, so the walk
  * goes on until all that is left begins after the best hit.
  *
+ * form=wide joins clusters and octrees into one wide tree (wide/wide.h): no node below those that
+ * part the clusters holds primitives of two, and in a cluster it is cut as the wide octree. What
+ * follows is the classic form, the paper's.
+ *
  * A cluster of few primitives is a list: its octree's root is a leaf. Where the scene is one
  * cluster, there is no tree above, and hoo is an octree over the scene's tight box.
  *
@@ -22,6 +26,7 @@
 #include "cluster.h"
 #include "octree_later.h"
 #include "hoo_pairing.h"
+#include "wide/wide_form.h"
 
 #include <stdlib.h>
 
@@ -33,16 +38,15 @@ struct hoo_kind {
     struct octree_lazy lazy;             /* how octrees are built that are built later */
     ARRAY_OF(struct octree_later) later; /* by cluster; with lazy=on, instead of trees and pool */
     struct boxtree top;                  /* over the clusters; no nodes if there is but one */
+    struct wide wide;                    /* of the wide form, instead of all that */
 };
 
-enum { FORM, LEAF, DEPTH, CONNECTIVITY, OCTAVES, LAZY, PART };
-
-static const char *const forms[] = {"classic", NULL};
+enum { FORM, LEAF, DEPTH, CONNECTIVITY, OCTAVES, LAZY, PART, ISA };
 
 static const char *const switches[] = {"off", "on", NULL};
 
 static const accel_option options[] = {
-    [FORM] = {.key = "form", .meaning = "how cells are laid out", .words = forms},
+    [FORM] = WIDE_FORM_OPTION("leaf, depth or lazy=on"),
     [LEAF] = OCTREE_LEAF_OPTION,
     [DEPTH] = OCTREE_DEPTH_OPTION,
     [CONNECTIVITY] = CLUSTER_CONNECTIVITY_OPTION,
@@ -51,6 +55,7 @@ static const accel_option options[] = {
               .meaning = "on: an octree is built when the first ray enters its cluster",
               .words = switches},
     [PART] = OCTREE_PART_OPTION,
+    [ISA] = WIDE_ISA_OPTION,
 };
 
 static bool find_clusters(struct build *build, struct hoo_kind *h)
@@ -132,13 +137,33 @@ static void describe(struct build *build, const struct hoo_kind *h)
     info->depth += h->top.depth;
 }
 
-static bool build(struct build *build)
+static bool build_classic(struct build *build, struct hoo_kind *h)
 {
-    struct hoo_kind *h = (struct hoo_kind *)build->a;
-    if (!find_clusters(build, h) || !build_octrees(build, h) || !build_top(build, h))
+    if (!build_octrees(build, h) || !build_top(build, h))
         return false;
     describe(build, h);
     return true;
+}
+
+/* The clusters are the tree's shape, and not needed after it. */
+static bool build_wide(struct build *build, struct hoo_kind *h)
+{
+    const bool fine = wide_form_build(build, &h->wide, &h->base.option[ISA], WIDE_BY_OCTANTS,
+                                      &h->clustering);
+    cluster_free(&h->base.memory, &h->clustering);
+    return fine;
+}
+
+static bool build(struct build *build)
+{
+    struct hoo_kind *h = (struct hoo_kind *)build->a;
+    double *option = h->base.option;
+    const bool classic = !isnan(option[LEAF]) || !isnan(option[DEPTH]) || option[LAZY] > 0;
+    option[FORM] = wide_form_resolve(option[FORM], classic);
+    if (option[FORM] == WIDE_FORM_WIDE)
+        option[LAZY] = 0;
+    return find_clusters(build, h) && (option[FORM] == WIDE_FORM_CLASSIC ? build_classic(build, h)
+                                                                         : build_wide(build, h));
 }
 
 static void visit(const accel *a, struct query *q, struct boxtree_child leaf)
@@ -156,7 +181,9 @@ static void visit_lazy(const accel *a, struct query *q, struct boxtree_child lea
 static void walk(const accel *a, struct query *q)
 {
     const struct hoo_kind *h = (const struct hoo_kind *)a;
-    if (h->later.count == 1)
+    if (h->wide.base)
+        wide_form_walk(&h->wide, q);
+    else if (h->later.count == 1)
         octree_walk_lazy(&h->lazy, &h->later.at[0], q);
     else if (h->later.count > 1)
         boxtree_walk(a, h->top.nodes.at, q, visit_lazy);
@@ -281,6 +308,8 @@ static bool check_top(const struct hoo_kind *h, accel_error *error)
 static bool validate(const accel *a, accel_error *error)
 {
     const struct hoo_kind *h = (const struct hoo_kind *)a;
+    if (h->wide.base)
+        return wide_validate(a, &h->wide, error);
     return check_clusters(h, error) && check_top(h, error);
 }
 
@@ -294,6 +323,7 @@ static void release(accel *a)
     octree_pool_free(&a->memory, &h->pool);
     array_free(&a->memory, &h->trees);
     array_free(&a->memory, &h->top.nodes);
+    wide_free(&a->memory, &h->wide);
 }
 
 const struct accel_kind hoo_kind = {

@@ -1,29 +1,35 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * octree: one octree over the whole scene, after Glassner, "Space Subdivision for Fast Ray
- * Tracing", IEEE CG&A 4(10), 1984. Encoding, invariant, cost and what it is bad at: octree.h.
+ * octree: one octree over the whole scene, in one of two forms.
  *
+ * classic: after Glassner, "Space Subdivision for Fast Ray Tracing", IEEE CG&A 4(10), 1984: cells
+ * are halved, and list what meets them. Encoding, invariant, cost and what it is bad at: octree.h.
  * Bad at clusters far apart: from the root down to each of them there is a chain of cells with one
  * child, and a cubic root around few distant things is mostly empty.
+ *
+ * wide: a wide tree (wide/wide.h) cut along the three axes in turn, where the cost is lowest; a
+ * primitive goes to the octant of its centre.
  */
 #include "octree.h"
+#include "wide/wide_form.h"
 
 struct octree_kind {
     accel base;
-    struct octree_pool pool;
+    struct octree_pool pool; /* of the classic form */
     struct octree tree;
+    struct wide wide; /* of the wide form */
 };
 
-enum { FORM, LEAF, DEPTH, ROOT };
+enum { FORM, LEAF, DEPTH, ROOT, ISA };
 
-static const char *const forms[] = {"classic", NULL};
 static const char *const roots[] = {"cube", "scene", NULL};
 
 static const accel_option options[] = {
-    [FORM] = {.key = "form", .meaning = "how cells are laid out", .words = forms},
+    [FORM] = WIDE_FORM_OPTION("leaf, depth or root"),
     [LEAF] = OCTREE_LEAF_OPTION,
     [DEPTH] = OCTREE_DEPTH_OPTION,
-    [ROOT] = {.key = "root", .meaning = "shape of the root cell", .words = roots},
+    [ROOT] = {.key = "root", .meaning = "shape of the classic root cell", .words = roots},
+    [ISA] = WIDE_ISA_OPTION,
 };
 
 /* The cube around a box, with the same centre; it contains the box whatever the rounding. */
@@ -41,9 +47,8 @@ static accel_box cube_around(const accel_box *b)
     return cube;
 }
 
-static bool build(struct build *build)
+static bool build_classic(struct build *build, struct octree_kind *o)
 {
-    struct octree_kind *o = (struct octree_kind *)build->a;
     const struct primitives *p = &o->base.prims;
     const accel_box tight = p->bounds;
     const accel_box root = o->base.option[ROOT] == 0 ? cube_around(&tight) : tight;
@@ -61,15 +66,31 @@ static bool build(struct build *build)
     return true;
 }
 
+static bool build(struct build *build)
+{
+    struct octree_kind *o = (struct octree_kind *)build->a;
+    double *option = o->base.option;
+    const bool classic = !isnan(option[LEAF]) || !isnan(option[DEPTH]) || option[ROOT] != 0;
+    option[FORM] = wide_form_resolve(option[FORM], classic);
+    return option[FORM] == WIDE_FORM_CLASSIC
+               ? build_classic(build, o)
+               : wide_form_build(build, &o->wide, &option[ISA], WIDE_BY_OCTANTS, NULL);
+}
+
 static void walk(const accel *a, struct query *q)
 {
     const struct octree_kind *o = (const struct octree_kind *)a;
-    octree_walk(&o->pool, &o->tree, q);
+    if (o->wide.base)
+        wide_form_walk(&o->wide, q);
+    else
+        octree_walk(&o->pool, &o->tree, q);
 }
 
 static bool validate(const accel *a, accel_error *error)
 {
     const struct octree_kind *o = (const struct octree_kind *)a;
+    if (o->wide.base)
+        return wide_validate(a, &o->wide, error);
     return octree_validate(a, &o->pool, &o->tree, a->prims.bounded.at, a->prims.bounded.count,
                            error);
 }
@@ -78,6 +99,7 @@ static void release(accel *a)
 {
     struct octree_kind *o = (struct octree_kind *)a;
     octree_pool_free(&a->memory, &o->pool);
+    wide_free(&a->memory, &o->wide);
 }
 
 const struct accel_kind octree_kind = {

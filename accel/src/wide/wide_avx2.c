@@ -153,6 +153,7 @@ const struct wide_isa wide_avx2 = {
     .closest = closest,
     .any = any,
     .walk = walk,
+    .find_box = wide_find_box,
 };
 
 #endif

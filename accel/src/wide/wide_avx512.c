@@ -187,6 +187,7 @@ const struct wide_isa wide_avx512 = {
     .closest = closest,
     .any = any,
     .walk = walk,
+    .find_box = wide_find_box,
 };
 
 #endif

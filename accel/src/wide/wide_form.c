@@ -4,6 +4,7 @@
 #include <string.h>
 
 const char *const wide_isa_words[] = {"avx512", "avx2", "portable", NULL};
+const char *const wide_form_words[] = {"wide", "classic", NULL};
 
 /* The set that is asked for; without a word, or where that is not to be had, the best there is. */
 static const struct wide_isa *choose_isa(struct build *build, double option)

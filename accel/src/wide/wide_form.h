@@ -7,7 +7,23 @@
 
 #include "wide_isa.h"
 
-extern const char *const wide_isa_words[];
+extern const char *const wide_isa_words[], *const wide_form_words[];
+
+/* The words of the option `form`, by index. */
+enum { WIDE_FORM_WIDE, WIDE_FORM_CLASSIC };
+
+/* Of a kind that has both; the wide one does without some options. */
+#define WIDE_FORM_OPTION(without)                                                                  \
+    {                                                                                              \
+        .key = "form", .meaning = "auto: wide, but classic with " without,                          \
+        .words = wide_form_words, .standard = NAN                                                  \
+    }
+
+/* The form that is built; `classic`: options are given that only that one has. */
+static inline double wide_form_resolve(double form, bool classic)
+{
+    return isnan(form) ? (classic ? WIDE_FORM_CLASSIC : WIDE_FORM_WIDE) : form;
+}
 
 #define WIDE_ISA_OPTION                                                                            \
     {                                                                                              \

@@ -27,6 +27,7 @@ struct wide_isa {
                             accel_query *counters);
     /* Any query but a point query, over any primitives: false if the ray is not one for this walk. */
     bool (*walk)(const struct wide *w, struct query *q);
+    bool (*find_box)(const struct wide *w, uint32_t id, accel_box *box); /* wide_find_box */
 };
 
 /* The sets that are compiled in, best first, NULL-ended; the last one works everywhere. */

@@ -113,4 +113,5 @@ const struct wide_isa wide_portable = {
     .closest = closest,
     .any = any,
     .walk = walk,
+    .find_box = wide_find_box,
 };
