@@ -32,14 +32,13 @@ static const accel_table_row rows1[] = {
     {"hoo:depth=3,leaf=12", 0, 139.0},
     {"octree:root=cube,depth=10,leaf=12", 0, 1147.0},
     {"octree:root=scene,depth=10,leaf=12", 0, 1147.0},
-    {"hoo", 3, 0.0},
-    {"octree:root=cube", 3, 0.0},
+    {"hoo:form=classic", 3, 0.0},
+    {"octree:form=classic,root=cube", 3, 0.0},
     {"octree:root=scene", 3, 0.0},
     {"bvh", 3, 0.0},
     {"hoo:leaf=?", 7, 0.0},
     {"octree:root=cube,leaf=?", 7, 0.0},
     {"octree:root=scene,leaf=?", 7, 0.0},
-    {"bvh:leaf=?", 7, 0.0},
 };
 
 static const accel_table_row rows2[] = {
@@ -55,18 +54,17 @@ static const accel_table_row rows2[] = {
     {"hug:form=paper,cells=45", 8, 79.34},
     {"hoo:depth=9,leaf=12", 10, 49.97},
     {"hug:form=paper,cells=53", 10, 80.51},
-    {"hoo", 12, 0.0},
+    {"hoo:form=classic", 12, 0.0},
     {"hug", 12, 0.0},
     {"bvh", 12, 0.0},
     {"hoo:leaf=?", 15, 0.0},
     {"hug:density=?", 15, 0.0},
     {"octree:leaf=?", 15, 0.0},
-    {"bvh:leaf=?", 15, 0.0},
 };
 
 /* Every kind as it comes. */
 static const accel_table_row rows3[] = {
-    {"hoo", 0, 0.0},  {"octree", 0, 0.0}, {"hug", 0, 0.0},
+    {"hoo:form=classic", 0, 0.0},  {"octree:form=classic", 0, 0.0}, {"hug", 0, 0.0},
     {"grid", 0, 0.0}, {"bsp", 0, 0.0},    {"bvh", 0, 0.0},
 };
 

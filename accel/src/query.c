@@ -60,8 +60,8 @@ static bool inside(const struct query *q, double t)
 }
 
 /* A native hit: t is clamped into S(P'), and a hit whose S(P') is empty is none. */
-static void offer_in(struct query *q, const accel_box *padded, uint32_t id, double t, double u,
-                     double v)
+void query_offer(struct query *q, const accel_box *padded, uint32_t id, double t, double u,
+                 double v)
 {
     const struct interval s = query_box(q, padded);
     if (!(s.a <= s.z) || isnan(t))
@@ -71,30 +71,16 @@ static void offer_in(struct query *q, const accel_box *padded, uint32_t id, doub
         keep(q, &(struct found){key, key, u, v, id});
 }
 
-static void offer(struct query *q, uint32_t id, double t, double u, double v)
+void query_offer_point(struct query *q, const accel_box *padded, uint32_t id)
 {
-    offer_in(q, &q->prims->box[id], id, t, u, v);
-}
-
-void query_test_triangle(struct query *q, uint32_t id, const double *vertices)
-{
-    double t, u, v;
-    if (id == q->skip)
-        return;
-    q->tests++;
-    if (!q->point && !triangle_hit(q, vertices, &t, &u, &v))
-        return;
-    accel_box box = box_empty();
-    for (int i = 0; i < 3; i++)
-        box_add_point(&box, vertices + 3 * i);
-    box = box_padded(&box);
-    if (!q->point) {
-        offer_in(q, &box, id, t, u, v);
-        return;
-    }
-    const struct interval s = query_box(q, &box);
+    const struct interval s = query_box(q, padded);
     if (s.a <= s.z)
         keep(q, &(struct found){0.0, 0.0, 0.0, 0.0, id});
+}
+
+static void offer(struct query *q, uint32_t id, double t, double u, double v)
+{
+    query_offer(q, &q->prims->box[id], id, t, u, v);
 }
 
 static void test_triangle(struct query *q, const struct geometry *g, uint32_t id)
@@ -144,9 +130,7 @@ static void test(struct query *q, uint32_t id, bool prune)
     q->tests++;
     const struct geometry *g = primitives_geometry(q->prims, id);
     if (q->point) {
-        const struct interval s = query_box(q, &q->prims->box[id]);
-        if (s.a <= s.z)
-            keep(q, &(struct found){0.0, 0.0, 0.0, 0.0, id});
+        query_offer_point(q, &q->prims->box[id], id);
     } else if (g->type == ACCEL_TRIANGLES) {
         test_triangle(q, g, id);
     } else if (g->type == ACCEL_SPHERES) {

@@ -187,10 +187,11 @@ void query_test_list(struct query *q, const uint32_t *ids, size_t count);
 void query_test_triangles(struct query *q, const uint32_t *ids, const double *vertices,
                           size_t count);
 
-/* Tests one triangle whose vertices the kind keeps, 9 doubles, and nothing else of it: its box P' is
- * made from them again. In another rounding mode than that of the build it may be some last bits
- * larger than what the kind was built around; boxes that are padded by more hold it all the same. */
-void query_test_triangle(struct query *q, uint32_t id, const double *vertices);
+/* For kinds that keep the data of primitives themselves: a hit of a triangle or sphere, and a box
+ * that a point query may be in. padded: P'. */
+void query_offer(struct query *q, const accel_box *padded, uint32_t id, double t, double u,
+                 double v);
+void query_offer_point(struct query *q, const accel_box *padded, uint32_t id);
 
 /* Tests every one: what linear does. */
 void query_test_all(struct query *q, const uint32_t *ids, size_t count);

@@ -347,7 +347,7 @@ static void test_silence(void **state)
     for (size_t i = 0; i < count; i++)
         hear(&s, kind[i]->name, NULL);
     if (kind_is_there("hoo"))
-        hear(&s, "hoo:connectivity=0", "octrees");
+        hear(&s, "hoo:form=classic,connectivity=0", "octrees");
     if (kind_is_there("hug"))
         hear(&s, "hug:connectivity=0", "grids");
     scene_free(&s);

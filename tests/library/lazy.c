@@ -48,7 +48,7 @@ static void become_eager(const struct test_scene *s, const char *rule, const cha
 {
     enum { PATIENCE = 60 };
     char config[120];
-    snprintf(config, sizeof config, "hoo:lazy=off%s%s", *rule ? "," : "", rule);
+    snprintf(config, sizeof config, "hoo:form=classic,lazy=off%s%s", *rule ? "," : "", rule);
     accel *eager = must_build(s, config);
     snprintf(config, sizeof config, "hoo:lazy=on,part=%s%s%s", part, *rule ? "," : "", rule);
     accel *lazy = must_build(s, config);

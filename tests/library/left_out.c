@@ -14,19 +14,22 @@ static const char *const all_kinds[] = {"linear", "grid", "hug", "octree",
 /* Something that is left out, of which scene, by which kinds. */
 static const struct expected {
     const char *scene, *words;
-    const char *const *kinds; /* NULL-ended */
+    const char *const *kinds; /* NULL-ended configs */
     bool saves;               /* bytes */
     bool absent;              /* no kind may say so */
 } expectations[] = {
     {"ball-mesh", "only triangles: no callback path", all_kinds, false, false},
     {"ball-mesh", "one geometry: no table", all_kinds, true, false},
-    {"ball-mesh", "one cluster: no tree above", (const char *const[]){"hoo", NULL}, true, false},
+    {"ball-mesh", "one cluster: no tree above", (const char *const[]){"hoo:form=classic", NULL}, true, false},
     {"ball-mesh", "one cluster: no grid above", (const char *const[]){"hug", NULL}, true, false},
     {"ball-mesh", "cells are empty: not stored",
-     (const char *const[]){"grid", "hug", "octree", "hoo", "bsp", NULL}, true, false},
-    {"ball-mesh", "none in the scene's", (const char *const[]){"bvh", NULL}, true, false},
-    {"one-sphere", "few primitives: a list", (const char *const[]){"octree", "bsp", "bvh", NULL},
+     (const char *const[]){"grid", "hug", "octree:form=classic", "hoo:form=classic", "bsp", NULL}, true, false},
+    {"ball-mesh", "in the leaves alone", (const char *const[]){"octree", "hoo", "bvh", NULL}, true,
+     false},
+    {"one-sphere", "few primitives: a list", (const char *const[]){"octree:form=classic", "bsp", NULL},
      true, false},
+    {"one-sphere", "few primitives: a leaf", (const char *const[]){"octree", "hoo", "bvh", NULL}, true,
+     false},
     {"one-sphere", "only triangles", all_kinds, false, true},
     {"mixed", "only triangles", all_kinds, false, true},
     {"mixed", "one geometry", all_kinds, false, true},
@@ -53,6 +56,13 @@ static void check(const struct expected *e, const struct test_scene *s, const ch
     accel_free(a);
 }
 
+static bool config_is_there(const char *config)
+{
+    char kind[20];
+    snprintf(kind, sizeof kind, "%.*s", (int)strcspn(config, ":"), config);
+    return kind_is_there(kind);
+}
+
 static void test_expectations(void **state)
 {
     (void)state;
@@ -60,7 +70,7 @@ static void test_expectations(void **state)
         struct test_scene s;
         scene_make(&s, scene_maker_find(expectations[i].scene), test_seed());
         for (const char *const *kind = expectations[i].kinds; *kind; kind++)
-            if (kind_is_there(*kind))
+            if (config_is_there(*kind))
                 check(&expectations[i], &s, *kind);
         scene_free(&s);
     }
@@ -73,8 +83,8 @@ static void test_short_cluster(void **state)
     static const double left[3] = {-100.0, 0.0, 0.0}, right[3] = {100.0, 0.0, 0.0};
     static const double alone[3][3] = {{0.0, 50.0, 0.0}, {0.1, 50.0, 0.0}, {0.0, 50.1, 0.0}};
     static const char *const configs[][2] = {
-        {"hoo", "1 of 3 clusters are short: lists"},
-        {"hug", "1 of 3 clusters are short: items"},
+        {"hoo:form=classic", "1 of 3 clusters are short: lists"},
+        {"hug:form=density", "1 of 3 clusters are short: items"},
     };
     struct test_scene s;
     scene_open(&s);
@@ -86,9 +96,9 @@ static void test_short_cluster(void **state)
     for (size_t i = 0; i < sizeof configs / sizeof *configs; i++) {
         const struct expected list = {"two balls", configs[i][1], NULL, true, false};
         const struct expected tree = {"two balls", "one cluster", NULL, true, true};
-        char config[40];
-        snprintf(config, sizeof config, "%s:connectivity=0,octaves=64", configs[i][0]);
-        if (!kind_is_there(configs[i][0]))
+        char config[60];
+        snprintf(config, sizeof config, "%s,connectivity=0,octaves=64", configs[i][0]);
+        if (!config_is_there(configs[i][0]))
             continue;
         check(&list, &s, config);
         check(&tree, &s, config);

@@ -20,6 +20,8 @@
 #ifndef ACCEL_WIDE_H
 #define ACCEL_WIDE_H
 
+#include <fenv.h>
+
 #include "../kind.h"
 #include "../query.h"
 
@@ -33,7 +35,7 @@ enum { WIDE = 16, WIDE_MAX_DEPTH = 96, WIDE_BLOCK = 8 };
 
 struct wide_node {
     float plane[3][2][WIDE]; /* axis, lower or upper side, child; no child: infinity, -infinity */
-    uint32_t child[WIDE];    /* words; children with the largest surface first */
+    uint32_t child[WIDE];    /* words; children with the largest surface last */
 };
 
 /* What a block holds. */
@@ -70,7 +72,12 @@ struct wide {
     uint32_t depth;      /* levels of nodes */
     uint64_t nodes, leaves, blocks;
     const struct wide_isa *isa;
+    fenv_t environment; /* in which it was built, and padded boxes are made again */
+    uint32_t mode;      /* of it: see wide_mode */
 };
+
+/* What of the floating-point environment decides the bits of a sum. */
+uint32_t wide_mode(void);
 
 static inline const struct wide_node *wide_node_at(const struct wide *w, uint32_t word)
 {
@@ -110,8 +117,8 @@ static inline const uint32_t *wide_block_ids(const struct wide_block *b)
 /* The vertices of the i-th triangle of a block: 9 doubles, as primitives keep them. */
 void wide_vertices(const struct wide_block *b, unsigned i, double out[9]);
 
-/* P' of the i-th triangle of a block. */
-accel_box wide_triangle_box(const struct wide_block *b, unsigned i);
+/* P' of the i-th triangle of a block, as the build made it in its mode. */
+accel_box wide_triangle_box(const struct wide *w, const struct wide_block *b, unsigned i);
 
 /* P' of a triangle by its id: false if no leaf holds it. Goes through the whole tree. */
 bool wide_find_box(const struct wide *w, uint32_t id, accel_box *box);

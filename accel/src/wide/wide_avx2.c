@@ -11,10 +11,10 @@
 #include "wide_isa.h"
 
 #if defined(__clang__)
-#pragma clang attribute push(__attribute__((target("avx2,fma,bmi,lzcnt"))), apply_to = function)
+#pragma clang attribute push(__attribute__((target("avx2,fma,bmi,lzcnt,popcnt"))), apply_to = function)
 #else
 #pragma GCC push_options
-#pragma GCC target("avx2,fma,bmi,lzcnt")
+#pragma GCC target("avx2,fma,bmi,lzcnt,popcnt")
 #endif
 
 struct node_ray {
@@ -68,6 +68,13 @@ static inline uint32_t node_meets(const struct node_ray *n, const struct wide_no
 {
     const char *at = (const char *)node;
     return half_meets(n, at, begin) | half_meets(n, at + 32, begin + 8) << 8;
+}
+
+static inline uint32_t *push_children(uint32_t *top, uint32_t meets, const struct wide_node *node)
+{
+    for (; meets != 0; meets &= meets - 1)
+        *top++ = node->child[__builtin_ctz(meets)];
+    return top;
 }
 
 struct leaf_ray {

@@ -11,13 +11,13 @@
 #include "../query.h"
 #include "wide_isa.h"
 
-#define FEATURES "avx512f,avx512vl,avx512dq,avx512bw,avx2,fma,bmi,lzcnt"
+#define FEATURES "avx512f,avx512vl,avx512dq,avx512bw,avx2,fma,bmi,lzcnt,popcnt"
 
 #if defined(__clang__)
 #pragma clang attribute push(__attribute__((target(FEATURES))), apply_to = function)
 #else
 #pragma GCC push_options
-#pragma GCC target("avx512f,avx512vl,avx512dq,avx512bw,avx2,fma,bmi,lzcnt")
+#pragma GCC target("avx512f,avx512vl,avx512dq,avx512bw,avx2,fma,bmi,lzcnt,popcnt")
 #endif
 
 struct node_ray {
@@ -64,6 +64,13 @@ static inline uint32_t node_meets(const struct node_ray *n, const struct wide_no
     const __m512i last = _mm512_add_epi32(_mm512_castps_si512(z), _mm512_set1_epi32(WIDE_STEPS));
     _mm512_store_ps(begin, a);
     return _mm512_cmple_epi32_mask(_mm512_castps_si512(a), last);
+}
+
+static inline uint32_t *push_children(uint32_t *top, uint32_t meets, const struct wide_node *node)
+{
+    const __m512i words = _mm512_load_si512(node->child);
+    _mm512_storeu_si512(top, _mm512_maskz_compress_epi32((__mmask16)meets, words));
+    return top + __builtin_popcount(meets);
 }
 
 struct leaf_ray {

@@ -242,14 +242,14 @@ static float area(const struct wide_binary *n)
     return x * y + y * z + z * x;
 }
 
-/* Largest first. */
+/* Largest last: any-hit walks take the last one first. */
 static void sort_children(const struct emitter *e, struct children *c)
 {
     for (uint32_t i = 1; i < c->count; i++) {
         const uint32_t moved = c->place[i];
         const float size = area(&e->tree->nodes[moved]);
         uint32_t to = i;
-        for (; to > 0 && area(&e->tree->nodes[c->place[to - 1]]) < size; to--)
+        for (; to > 0 && area(&e->tree->nodes[c->place[to - 1]]) > size; to--)
             c->place[to] = c->place[to - 1];
         c->place[to] = moved;
     }

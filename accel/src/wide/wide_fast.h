@@ -3,6 +3,8 @@
  * The walks of an instruction set, included by its file after
  *     struct node_ray, node_ray_from(ray, limit), node_ray_limit(&n, limit), node_meets(&n, node,
  *     begin): the children that may matter as bits, and where they begin;
+ *     push_children(top, meets, node): puts their words on a stack in order, and may write WIDE
+ *     words; returns its new top;
  *     struct leaf_ray, leaf_ray_from(ray), leaf_test(&l, f, block, any): tests a block of triangles;
  *     true if the best hit became better.
  * Included once for each set: every function here is static.
@@ -46,16 +48,26 @@ static inline void sort_waiting(waiting *bottom, const waiting *top)
     }
 }
 
+/* What is visited soon had better be on its way from memory. */
+static inline void expect(const struct wide *w, uint32_t word)
+{
+    const unsigned char *at = w->base + 16 * (size_t)(word & ~WIDE_LEAF);
+    __builtin_prefetch(at);
+    __builtin_prefetch(at + 64);
+}
+
 /* Stacks all children that are met but the nearest, which it returns; meets is not 0. */
-__attribute__((always_inline)) static inline uint32_t descend(const struct wide_node *node,
-                                                              uint32_t meets, const float *begin,
-                                                              waiting **top)
+__attribute__((always_inline)) static inline uint32_t
+descend(const struct wide *w, const struct wide_node *node, uint32_t meets, const float *begin,
+        waiting **top)
 {
     uint32_t i = next_child(&meets);
+    expect(w, node->child[i]);
     if (meets == 0)
         return node->child[i];
     const waiting a = waiting_of(begin[i], node->child[i]);
     i = next_child(&meets);
+    expect(w, node->child[i]);
     const waiting b = waiting_of(begin[i], node->child[i]);
     const waiting near = a < b ? a : b, far = a < b ? b : a;
     if (meets == 0) {
@@ -63,6 +75,7 @@ __attribute__((always_inline)) static inline uint32_t descend(const struct wide_
         return (uint32_t)near;
     }
     i = next_child(&meets);
+    expect(w, node->child[i]);
     const waiting c = waiting_of(begin[i], node->child[i]);
     const waiting farthest = far > c ? far : c, rest = far > c ? c : far;
     waiting *bottom = *top;
@@ -76,6 +89,7 @@ __attribute__((always_inline)) static inline uint32_t descend(const struct wide_
     *top += 3;
     while (meets != 0) {
         i = next_child(&meets);
+        expect(w, node->child[i]);
         *(*top)++ = waiting_of(begin[i], node->child[i]);
     }
     sort_waiting(bottom, *top);
@@ -122,7 +136,7 @@ __attribute__((always_inline)) static inline bool test_blocks(const struct leaf_
 }
 
 __attribute__((always_inline)) static inline enum wide_answer
-walk_fast(const accel *a, const struct wide *w, const accel_ray *ray, struct wide_fast *f, bool any)
+walk_closest(const accel *a, const struct wide *w, const accel_ray *ray, struct wide_fast *f)
 {
     waiting stack[WIDE_MAX_DEPTH * (WIDE - 1) + 2], *top = stack;
     _Alignas(64) float begin[WIDE];
@@ -139,11 +153,9 @@ walk_fast(const accel *a, const struct wide *w, const accel_ray *ray, struct wid
             f->nodes++;
             if (meets == 0)
                 goto next;
-            word = descend(node, meets, begin, &top);
+            word = descend(w, node, meets, begin, &top);
         }
-        if (test_blocks(&l, f, wide_leaf_at(w, word), any)) {
-            if (any)
-                return WIDE_HIT;
+        if (test_blocks(&l, f, wide_leaf_at(w, word), false)) {
             limit = wide_limit(&f->ray, f->best);
             node_ray_limit(&n, limit);
         }
@@ -156,11 +168,36 @@ walk_fast(const accel *a, const struct wide *w, const accel_ray *ray, struct wid
     }
 }
 
+/* Any hit: no order but that of the children, whose last one is the largest; the limit stays. */
+__attribute__((always_inline)) static inline enum wide_answer
+walk_any(const accel *a, const struct wide *w, const accel_ray *ray, struct wide_fast *f)
+{
+    uint32_t stack[WIDE_MAX_DEPTH * (WIDE - 1) + WIDE + 1], *top = stack;
+    float begin[WIDE];
+    if (!begin_fast(f, a, w, ray))
+        return WIDE_ANY_OTHER_WAY;
+    const struct node_ray n = node_ray_from(&f->ray, wide_limit(&f->ray, f->tmax));
+    const struct leaf_ray l = leaf_ray_from(&f->ray);
+    *top++ = w->root;
+    while (top > stack) {
+        const uint32_t word = *--top;
+        if (word & WIDE_LEAF) {
+            if (test_blocks(&l, f, wide_leaf_at(w, word), true))
+                return WIDE_HIT;
+            continue;
+        }
+        const struct wide_node *node = wide_node_at(w, word);
+        f->nodes++;
+        top = push_children(top, node_meets(&n, node, begin), node);
+    }
+    return WIDE_MISSED;
+}
+
 static enum wide_answer closest(const accel *a, const struct wide *w, const accel_ray *ray,
                                 accel_hit *hit, accel_query *counters)
 {
     struct wide_fast f;
-    const enum wide_answer answer = walk_fast(a, w, ray, &f, false);
+    const enum wide_answer answer = walk_closest(a, w, ray, &f);
     if (answer == WIDE_ANY_OTHER_WAY)
         return answer;
     end_fast(&f, counters);
@@ -175,7 +212,7 @@ static enum wide_answer any(const accel *a, const struct wide *w, const accel_ra
                             accel_query *counters)
 {
     struct wide_fast f;
-    const enum wide_answer answer = walk_fast(a, w, ray, &f, true);
+    const enum wide_answer answer = walk_any(a, w, ray, &f);
     if (answer != WIDE_ANY_OTHER_WAY)
         end_fast(&f, counters);
     return answer;
@@ -204,7 +241,7 @@ static bool walk(const struct wide *w, struct query *q)
             q->nodes++;
             if (meets == 0)
                 goto next;
-            word = descend(node, meets, begin, &top);
+            word = descend(w, node, meets, begin, &top);
         }
         wide_test_leaf(w, q, word);
         if (query_done(q))

@@ -50,6 +50,13 @@ static inline uint32_t node_meets(const struct node_ray *n, const struct wide_no
     return meets;
 }
 
+static inline uint32_t *push_children(uint32_t *top, uint32_t meets, const struct wide_node *node)
+{
+    for (; meets != 0; meets &= meets - 1)
+        *top++ = node->child[__builtin_ctz(meets)];
+    return top;
+}
+
 struct leaf_ray {
     double org[3], shear[3]; /* along kx, ky, kz */
 };

@@ -27,7 +27,7 @@ static bool broken(const struct checker *c, const char *what, uint64_t number)
 
 static accel_box padded_box(const struct checker *c, const struct wide_block *b, unsigned i)
 {
-    return b->type == WIDE_LIST ? c->a->prims.box[wide_block_ids(b)[i]] : wide_triangle_box(b, i);
+    return b->type == WIDE_LIST ? c->a->prims.box[wide_block_ids(b)[i]] : wide_triangle_box(c->w, b, i);
 }
 
 /* P', scaled, lies in the box. */

@@ -7,7 +7,12 @@
 
 #include <string.h>
 
+#if defined(__SSE2__)
+#include <xmmintrin.h>
+#endif
+
 #include "../box.h"
+#include "../triangle.h"
 
 void wide_vertices(const struct wide_block *b, unsigned i, double out[9])
 {
@@ -28,22 +33,47 @@ void wide_vertices(const struct wide_block *b, unsigned i, double out[9])
     }
 }
 
-accel_box wide_triangle_box(const struct wide_block *b, unsigned i)
+uint32_t wide_mode(void)
 {
-    double vertices[9];
-    accel_box box = box_empty();
-    wide_vertices(b, i, vertices);
-    for (int corner = 0; corner < 3; corner++)
-        box_add_point(&box, vertices + 3 * corner);
-    return box_padded(&box);
+#if defined(__SSE2__)
+    return _mm_getcsr() & 0xe040; /* rounding, flushing results, flushing operands */
+#else
+    return (uint32_t)fegetround();
+#endif
 }
 
-static bool find_in_leaf(const struct wide_block *b, uint32_t id, accel_box *box)
+/* Not inlined, so that it stays between two changes of the environment. */
+__attribute__((noinline)) static void make_box(const double *vertices, accel_box *out)
+{
+    accel_box box = box_empty();
+    for (int corner = 0; corner < 3; corner++)
+        box_add_point(&box, vertices + 3 * corner);
+    *out = box_padded(&box);
+}
+
+accel_box wide_triangle_box(const struct wide *w, const struct wide_block *b, unsigned i)
+{
+    double vertices[9];
+    accel_box box;
+    wide_vertices(b, i, vertices);
+    if (wide_mode() == w->mode) {
+        make_box(vertices, &box);
+        return box;
+    }
+    fenv_t kept;
+    fegetenv(&kept);
+    fesetenv(&w->environment);
+    make_box(vertices, &box);
+    fesetenv(&kept);
+    return box;
+}
+
+static bool find_in_leaf(const struct wide *w, const struct wide_block *b, uint32_t id, accel_box *box)
 {
     for (;; b = wide_next_block(b)) {
         for (unsigned i = 0; i < b->count; i++) {
             if (wide_block_ids(b)[i] == id) {
-                *box = wide_triangle_box(b, i);
+                *box = wide_triangle_box(w, b, i);
                 return true;
             }
         }
@@ -55,7 +85,7 @@ static bool find_in_leaf(const struct wide_block *b, uint32_t id, accel_box *box
 static bool find_below(const struct wide *w, uint32_t word, uint32_t id, accel_box *box)
 {
     if (word & WIDE_LEAF)
-        return find_in_leaf(wide_leaf_at(w, word), id, box);
+        return find_in_leaf(w, wide_leaf_at(w, word), id, box);
     const struct wide_node *node = wide_node_at(w, word);
     for (int i = 0; i < WIDE && node->plane[0][0][i] <= node->plane[0][1][i]; i++)
         if (find_below(w, node->child[i], id, box))
@@ -68,18 +98,32 @@ bool wide_find_box(const struct wide *w, uint32_t id, accel_box *box)
     return find_below(w, w->root, id, box);
 }
 
+static void test_triangle(const struct wide *w, struct query *q, const struct wide_block *b,
+                          unsigned i)
+{
+    const uint32_t id = wide_block_ids(b)[i];
+    double vertices[9], t, u, v;
+    if (id == q->skip)
+        return;
+    q->tests++;
+    wide_vertices(b, i, vertices);
+    if (!q->point && !triangle_hit(q, vertices, &t, &u, &v))
+        return;
+    const accel_box box = wide_triangle_box(w, b, i);
+    if (q->point)
+        query_offer_point(q, &box, id);
+    else
+        query_offer(q, &box, id, t, u, v);
+}
+
 void wide_test_leaf(const struct wide *w, struct query *q, uint32_t word)
 {
     const struct wide_block *b = wide_leaf_at(w, word);
     for (;; b = wide_next_block(b)) {
-        const uint32_t *ids = wide_block_ids(b);
         if (b->type == WIDE_LIST)
-            query_test_list(q, ids, b->count);
-        for (unsigned i = 0; i < b->count && b->type != WIDE_LIST && !query_done(q); i++) {
-            double vertices[9];
-            wide_vertices(b, i, vertices);
-            query_test_triangle(q, ids[i], vertices);
-        }
+            query_test_list(q, wide_block_ids(b), b->count);
+        for (unsigned i = 0; i < b->count && b->type != WIDE_LIST && !query_done(q); i++)
+            test_triangle(w, q, b, i);
         if (b->last || query_done(q))
             return;
     }
