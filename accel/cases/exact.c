@@ -196,3 +196,27 @@ void exact_sphere(const accel_ray *ray, const double *sphere, struct exact out[2
         }
     }
 }
+
+/* The sum of the roots is 2 b / a, so the farther one is beyond b / a; b in double is off by at
+ * most 4 u |f| |dir|, which leaves its sign as it is where b is greater. */
+struct exact exact_sphere_left(const accel_ray *ray, const double *sphere)
+{
+    struct exact both[2];
+    quad ff = 0, a = 0, b = 0;
+    for (int k = 0; k < 3; k++) {
+        const quad f = (quad)ray->org[k] - (quad)sphere[k];
+        ff += f * f;
+        a += (quad)ray->dir[k] * (quad)ray->dir[k];
+        b -= f * (quad)ray->dir[k];
+    }
+    exact_sphere(ray, sphere, both);
+    const quad doubt = safety * (4 * unit * root(ff) * root(a) + tiny);
+    struct exact farther = both[b > 0];
+    if (farther.verdict == HIT && absolute(b) <= doubt)
+        return (struct exact){UNDECIDED, 0, 0, both[0].t - both[0].off, both[1].t + both[1].off};
+    if (farther.verdict == UNDECIDED && b > doubt)
+        farther.first = greater((b - doubt) / a * (1 - 4 * unit), 0);
+    if (farther.verdict == UNDECIDED && b < -doubt)
+        farther.last = lesser((b + doubt) / a * (1 - 4 * unit), 0);
+    return farther;
+}

@@ -41,7 +41,11 @@ struct exact exact_triangle(const accel_ray *ray, const double *vertices);
  * nothing. */
 bool exact_misses(const accel_ray *ray, const double *vertices);
 
-/* The two crossings, nearer first. Both are decided or none is. */
+/* The two crossings, the lower first. Both are decided or none is. */
 void exact_sphere(const accel_ray *ray, const double *sphere, struct exact out[2]);
+
+/* Of a ray that leaves the sphere: the crossing farther from t = 0. It is undecided as well where
+ * the bound leaves open which one that is, unless it is no hit. */
+struct exact exact_sphere_left(const accel_ray *ray, const double *sphere);
 
 #endif
