@@ -55,7 +55,7 @@ struct judgement oracle_judge(const struct test_scene *s, const accel_ray *ray)
                 const struct exact e = exact_triangle(ray, p->data + 9 * (size_t)i);
                 enter(&j, ray, &e, g, i);
             } else if (leaves) {
-                const struct exact e = exact_sphere_left(ray, p->data + 4 * (size_t)i);
+                const struct exact e = exact_sphere_left(ray, p->data + 4 * (size_t)i, true);
                 enter(&j, ray, &e, g, i);
             } else {
                 struct exact e[2];

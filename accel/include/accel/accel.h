@@ -109,8 +109,10 @@ typedef struct accel_id {
  * A ray that goes on from a hit starts where the hit is, but for rounding, and names in `skip` what
  * it leaves, which it would hit again otherwise. A triangle is left out as a whole. Of a sphere one
  * crossing is left out, the one nearest to t = 0 on either side, whatever the interval: a ray that
- * goes on into the sphere meets its far side, and one that goes outward does not meet it again. An
- * object's callback is called and leaves out the same: see accel_probe.skip.
+ * goes on into the sphere meets its far side, and one that goes outward does not meet it again. One
+ * that hardly goes inward may pass by a sphere that its origin was rounded out of: keep no account
+ * of what a ray is in, see by the normal from which side it hits. An object's callback is called,
+ * and leaves out the same: see accel_intersect.
  *
  * A ray whose org or dir is not finite, whose dir is zero, or whose tmin or tmax is NaN hits
  * nothing and is counted in accel_query.refused. Make one with accel_ray_from. */
