@@ -196,3 +196,58 @@ void exact_sphere(const accel_ray *ray, const double *sphere, struct exact out[2
         }
     }
 }
+
+/* A line about a sphere, its lengths as given: |f + t dir|^2 = r^2. */
+struct chord {
+    quad ff, a, b, c; /* f . f, dir . dir, -(f . dir), f . f - r^2 */
+};
+
+static struct chord chord_of(const accel_ray *ray, const double *sphere)
+{
+    struct chord l = {0, 0, 0, 0};
+    for (int k = 0; k < 3; k++) {
+        const quad f = (quad)ray->org[k] - (quad)sphere[k];
+        l.ff += f * f;
+        l.a += (quad)ray->dir[k] * (quad)ray->dir[k];
+        l.b -= f * (quad)ray->dir[k];
+    }
+    l.c = l.ff - (quad)sphere[3] * (quad)sphere[3];
+    return l;
+}
+
+/* For rays that graze; wider arithmetic decides but what it rounds itself. */
+static struct exact left_wide(const struct chord *l)
+{
+    const quad square = l->b * l->b - l->a * l->c, bit = 64 * (quad)0x1p-113;
+    const quad side = root(square), t = (l->b > 0 ? l->b + side : l->b - side) / l->a;
+    const quad most = root(bit * l->ff / l->a);
+    if (absolute(square) <= bit * l->a * l->ff || absolute(l->b) <= bit * root(l->a * l->ff))
+        return (struct exact){UNDECIDED, 0, 0, -2 * absolute(t) - most, 2 * absolute(t) + most};
+    if (square < 0)
+        return (struct exact){NO_HIT, 0, 0, 0, 0};
+    if (absolute(t) > (quad)DBL_MAX)
+        return (struct exact){UNDECIDED, 0, 0, t, t};
+    const quad off = 8 * unit * absolute(t) + bit * l->a * l->ff / (l->a * side) + tiny;
+    return (struct exact){HIT, t, off, t - off, t + off};
+}
+
+/* The sum of the roots is 2 b / a, so the farther one is beyond b / a; b in double is off by at
+ * most 4 u |f| |dir|, which leaves its sign as it is where b is greater. */
+struct exact exact_sphere_left(const accel_ray *ray, const double *sphere, bool wide)
+{
+    struct exact both[2];
+    const struct chord l = chord_of(ray, sphere);
+    const quad square = l.b * l.b - l.a * l.c, r = sphere[3];
+    if (wide && absolute(square) < (quad)0x1p-21 * l.a * r * r && l.ff < 4 * r * r)
+        return left_wide(&l);
+    exact_sphere(ray, sphere, both);
+    const quad doubt = safety * (4 * unit * root(l.ff) * root(l.a) + tiny);
+    struct exact farther = both[l.b > 0];
+    if (farther.verdict == HIT && absolute(l.b) <= doubt)
+        return (struct exact){UNDECIDED, 0, 0, both[0].t - both[0].off, both[1].t + both[1].off};
+    if (farther.verdict == UNDECIDED && l.b > doubt)
+        farther.first = greater((l.b - doubt) / l.a * (1 - 4 * unit), 0);
+    if (farther.verdict == UNDECIDED && l.b < -doubt)
+        farther.last = lesser((l.b + doubt) / l.a * (1 - 4 * unit), 0);
+    return farther;
+}

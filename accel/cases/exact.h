@@ -41,7 +41,12 @@ struct exact exact_triangle(const accel_ray *ray, const double *vertices);
  * nothing. */
 bool exact_misses(const accel_ray *ray, const double *vertices);
 
-/* The two crossings, nearer first. Both are decided or none is. */
+/* The two crossings, the lower first. Both are decided or none is. */
 void exact_sphere(const accel_ray *ray, const double *sphere, struct exact out[2]);
+
+/* Of a ray that leaves the sphere: the crossing farther from t = 0. `wide`: as the library has it,
+ * which sees rays that graze in wider precision; otherwise as a callback in double may have it,
+ * undecided also where the bound leaves open which one is farther. */
+struct exact exact_sphere_left(const accel_ray *ray, const double *sphere, bool wide);
 
 #endif

@@ -48,12 +48,14 @@ struct judgement oracle_judge(const struct test_scene *s, const accel_ray *ray)
     for (uint32_t g = 0; g < s->count && is_ray(ray); g++) {
         const struct part *p = &s->part[g];
         for (uint32_t i = 0; i < p->count; i++) {
-            if (g == ray->skip.geom && i == ray->skip.prim)
-                continue;
+            const bool leaves = g == ray->skip.geom && i == ray->skip.prim;
             if (p->type == ACCEL_TRIANGLES) {
-                if (exact_misses(ray, p->data + 9 * (size_t)i))
+                if (leaves || exact_misses(ray, p->data + 9 * (size_t)i))
                     continue;
                 const struct exact e = exact_triangle(ray, p->data + 9 * (size_t)i);
+                enter(&j, ray, &e, g, i);
+            } else if (leaves) {
+                const struct exact e = exact_sphere_left(ray, p->data + 4 * (size_t)i, true);
                 enter(&j, ray, &e, g, i);
             } else {
                 struct exact e[2];

@@ -19,8 +19,8 @@ struct judgement {
     quad second;         /* where the second decided hit may begin */
 };
 
-/* The ray's own primitive is skipped; a ray that the library refuses hits nothing. Primitives must
- * be valid: see accel_build. */
+/* Of the primitive that the ray leaves it sees what accel_ray says; a ray that the library refuses
+ * hits nothing. Primitives must be valid: see accel_build. */
 struct judgement oracle_judge(const struct test_scene *s, const accel_ray *ray);
 
 /* Is this answer right: the primitive, and t within the derived bound? Undecided: true. */

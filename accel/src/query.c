@@ -93,7 +93,7 @@ static void test_triangle(struct query *q, const struct geometry *g, uint32_t id
 static void test_sphere(struct query *q, const struct geometry *g, uint32_t id)
 {
     double t[2];
-    const int roots = sphere_hits(q, g->data + 4 * (size_t)(id - g->first), t);
+    const int roots = sphere_hits(q, g->data + 4 * (size_t)(id - g->first), id == q->skip, t);
     for (int i = 0; i < roots; i++)
         offer(q, id, t[i], 0.0, 0.0);
 }
@@ -106,7 +106,7 @@ static void test_object(struct query *q, const struct geometry *g, uint32_t id, 
         return;
     const double limit = g->order == ACCEL_ORDER_RAW && q->limit < q->tmax ? q->limit : q->tmax;
     struct probing probing = {
-        {q->ray, g->user, q->caller, id - g->first, limit}, q, s, g->order, id};
+        {q->ray, g->user, q->caller, id - g->first, id == q->skip, limit}, q, s, g->order, id};
     g->intersect(&probing.probe);
 }
 
@@ -125,10 +125,10 @@ bool accel_report(accel_probe *probe, double t, double u, double v)
 
 static void test(struct query *q, uint32_t id, bool prune)
 {
-    if (id == q->skip)
+    const struct geometry *g = primitives_geometry(q->prims, id);
+    if (id == q->skip && g->type == ACCEL_TRIANGLES)
         return;
     q->tests++;
-    const struct geometry *g = primitives_geometry(q->prims, id);
     if (q->point) {
         query_offer_point(q, &q->prims->box[id], id);
     } else if (g->type == ACCEL_TRIANGLES) {

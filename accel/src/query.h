@@ -64,7 +64,7 @@ struct query {
     bool point;            /* a point query */
     bool batch;            /* an all query's second or later walk: only hits after `last` */
     double shear[3];       /* dir[kx] / dir[kz], dir[ky] / dir[kz], 1 / dir[kz] */
-    uint32_t skip;         /* id that is not tested, or ACCEL_NONE */
+    uint32_t skip;         /* id that the ray leaves, or ACCEL_NONE */
     double limit;          /* a hit with a greater key cannot matter */
     struct found *found;   /* the first hits so far, by (key, id) */
     uint32_t count, room;  /* of them; there is room for */

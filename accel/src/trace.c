@@ -202,7 +202,7 @@ static bool visit_id(void *visitor, const struct primitives *p, const struct fou
     return v->visit(v->user, primitives_name(p, f->id));
 }
 
-bool accel_point(const accel *a, const double point[3], accel_visit_id *visit, void *user,
+bool accel_point(const accel *a, const double *point, accel_visit_id *visit, void *user,
                  accel_query *query)
 {
     const double nowhere[3] = {0.0, 0.0, 0.0};

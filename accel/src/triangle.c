@@ -1,14 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "triangle.h"
 
-/* Holds the product of two doubles exactly, with room in the exponent for a product of three. */
-#if defined(__SIZEOF_FLOAT128__)
-typedef __float128 wide;
-#elif LDBL_MANT_DIG >= 106 && LDBL_MAX_EXP >= 4096
-typedef long double wide;
-#else
-#error "accel needs a floating-point type of 106 bits or more: __float128 or long double"
-#endif
+#include "wide.h"
 
 /* Above SAFE_MIN the edge functions' sum and t's numerator have lost less than 2^-170 of themselves
  * to products that underflow; overflow makes them infinite or NaN. */

@@ -62,6 +62,8 @@ static void prepare(struct job *j)
         j->answers[i] = copies(j->maker)
                             ? ask_pile(judge, &j->rays[i], copies(j->maker), is_deep(i))
                             : ask(judge, &j->rays[i], is_deep(i));
+        if (!leaves_rightly(&j->scene, &j->rays[i], &j->answers[i]))
+            j->answers[i].illegal = "hits what it leaves";
         if (!same_answer(&j->answers[i], &j->answers[i])) {
             report_failure(&(struct failure){j->maker->name, j->family->name, j->seed, i, "linear",
                                              &j->rays[i], &j->answers[i], &j->answers[i]},

@@ -14,6 +14,7 @@ struct answer {
     uint64_t all, ids;   /* hash of what accel_all and accel_point visited, in order */
     uint32_t all_count;  /* how many hits; the visitor stops at ALL_HITS */
     uint32_t id_count;   /* how many primitives hold the ray's origin; the same */
+    uint32_t left;       /* how many hits of the primitive that the ray leaves */
     uint64_t refused;    /* how many of the queries were refused */
     uint64_t outside;    /* raw hits before their box, where kinds need not agree */
     const char *illegal; /* NULL, or what no structure may answer to this ray */
@@ -26,6 +27,9 @@ enum { ALL_HITS = 300 };
 struct answer ask(const accel *a, const accel_ray *ray, bool deep);
 
 bool same_answer(const struct answer *a, const struct answer *b);
+
+/* Of a triangle that the ray leaves there is no hit, of a sphere one at most. */
+bool leaves_rightly(const struct test_scene *s, const accel_ray *ray, const struct answer *a);
 
 /* Bits of everything in an answer, FNV-1a. */
 uint64_t answer_hash(uint64_t hash, const struct answer *a);

@@ -39,6 +39,9 @@ static const struct golden table[] = {
     {"exotic", "mix", 0x99101bba52a3c09a},
     {"mixed-key", "special", 0x3df84729b120d889},
     {"mixed-key", "secondary", 0x97b0d6b1978b1e8e},
+    {"ball-mesh", "secondary", 0xc6c50c3f920a737b},
+    {"slivers", "secondary", 0x930d4307ed568b97},
+    {"nested-spheres", "secondary", 0x6fa3916e5a2ec88d},
 };
 
 enum { RAYS = 1500, SEED = 1 };

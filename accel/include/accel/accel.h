@@ -2,7 +2,9 @@
  *
  * accel: exact ray-tracing acceleration structures behind one C interface.
  *
- *     accel_geometry mesh = {.type = ACCEL_TRIANGLES, .triangles = {...}};
+ *     accel_geometry mesh = {.type = ACCEL_TRIANGLES,
+ *                            .triangles = {.vertices = xyz, .vertex_count = n,
+ *                                          .indices = abc, .count = m}};
  *     accel_scene scene = {&mesh, 1};
  *     accel *a;
  *     accel_error error;
@@ -17,7 +19,9 @@
  * The contract: every kind of structure returns the answer of the kind "linear", which tests every
  * primitive in order, bit for bit. Hits are ordered by (t, geometry, primitive), so ties go to the
  * lowest geometry, then to the lowest primitive. The interval is open: tmin < t < tmax. There is no
- * epsilon: a ray that leaves a surface names the primitive it left in ray.skip.
+ * epsilon: a ray that leaves a surface names the primitive that it leaves in ray.skip, also where
+ * it goes on into glass. Examples stand with accel_intersect and accel_closest; all of them are
+ * compiled and run by the tests.
  *
  * Lengths are in the caller's units, in double; t is in units of |dir|, which need not be 1.
  *
@@ -101,6 +105,15 @@ typedef struct accel_id {
 } accel_id;
 
 /* A ray: the points org + t * dir with tmin < t < tmax.
+ *
+ * A ray that goes on from a hit starts where the hit is, but for rounding, and names in `skip` what
+ * it leaves, which it would hit again otherwise. A triangle is left out as a whole. Of a sphere one
+ * crossing is left out, the one nearest to t = 0 on either side, whatever the interval: a ray that
+ * goes on into the sphere meets its far side, and one that goes outward does not meet it again. One
+ * that hardly goes inward may pass by a sphere that its origin was rounded out of: keep no account
+ * of what a ray is in, see by the normal from which side it hits. An object's callback is called,
+ * and leaves out the same: see accel_intersect.
+ *
  * A ray whose org or dir is not finite, whose dir is zero, or whose tmin or tmax is NaN hits
  * nothing and is counted in accel_query.refused. Make one with accel_ray_from. */
 typedef struct accel_ray {
@@ -108,11 +121,11 @@ typedef struct accel_ray {
     double dir[3]; /* direction, any length but zero */
     double tmin;   /* exclusive; may be negative or -INFINITY */
     double tmax;   /* exclusive; may be INFINITY */
-    accel_id skip; /* this primitive is not tested; {ACCEL_NONE, ACCEL_NONE} for none */
+    accel_id skip; /* the primitive that the ray leaves; {ACCEL_NONE, ACCEL_NONE} for none */
 } accel_ray;
 
 /* The ray from org along dir, 0 < t < infinity, skipping nothing. */
-static inline accel_ray accel_ray_from(const double org[3], const double dir[3])
+static inline accel_ray accel_ray_from(const double *org, const double *dir)
 {
     accel_ray ray;
     for (int k = 0; k < 3; k++) {
@@ -174,17 +187,70 @@ typedef struct accel_probe {
     void *user;           /* accel_objects.user */
     accel_query *query;   /* the caller's accel_query, or NULL */
     uint32_t prim;        /* index of the object in its geometry */
+    bool skip;            /* the ray leaves this object: leave out its crossing nearest to t = 0 */
     double limit;         /* a hit with t > limit cannot matter; one with t == limit may */
 } accel_probe;
 
 /* Tests one object: calls accel_report for each hit in the ray's interval, in any order. It may
  * run queries on this or any other structure, and may leave by a C++ exception: the library holds
- * nothing across the call. An object may be tested more than once in one query. */
+ * nothing across the call.
+ *
+ * In one query an object may be tested more than once, and objects are tested in another order by
+ * each kind, or not at all: so what a callback keeps may depend only on what accel_report returns,
+ * and is written over, never added to.
+ *
+ * Of an object that the ray leaves (probe->skip) the crossing nearest to t = 0 is not reported. How
+ * small a t is does not tell which one that is, but the way that the ray goes does: of a convex
+ * object, where the ray enters it if it goes inward, else where it comes out. An open object that
+ * has but one crossing reports none.
+ *
+ * Example, a ball of the host's, with what is needed to shade it:
+ *
+ *     struct ball {
+ *         double centre[3], radius;
+ *         double index; // of refraction; 0: a mirror
+ *     };
+ *
+ *     struct shading {
+ *         double normal[3];
+ *     };
+ *
+ *     static void intersect_ball(accel_probe *probe)
+ *     {
+ *         const struct ball *ball = (const struct ball *)probe->user + probe->prim;
+ *         const double *org = probe->ray->org, *dir = probe->ray->dir;
+ *         const double square = ball->radius * ball->radius;
+ *         double f[3], a = 0, b = 0, c = -square, discriminant = square;
+ *         for (int k = 0; k < 3; k++) {
+ *             f[k] = org[k] - ball->centre[k];
+ *             a += dir[k] * dir[k];
+ *             b -= f[k] * dir[k];
+ *             c += f[k] * f[k];
+ *         }
+ *         for (int k = 0; k < 3; k++) {
+ *             const double nearest = f[k] + b / a * dir[k];
+ *             discriminant -= nearest * nearest;
+ *         }
+ *         if (!(discriminant >= 0))
+ *             return;
+ *         const double side = sqrt(a * discriminant), root = b > 0 ? b + side : b - side;
+ *         const double t[2] = {root != 0 ? c / root : 0, root / a}; // the nearer to 0 first
+ *         for (int i = probe->skip ? 1 : 0; i < 2; i++) {
+ *             if (t[i] > probe->limit || !accel_report(probe, t[i], 0, 0))
+ *                 continue;
+ *             // A closest query: the best so far. Others have no use for it.
+ *             struct shading *s = (struct shading *)(probe->query ? probe->query->user : NULL);
+ *             for (int k = 0; s && k < 3; k++)
+ *                 s->normal[k] = (f[k] + t[i] * dir[k]) / ball->radius;
+ *         }
+ *     }
+ */
 typedef void accel_intersect(accel_probe *probe);
 
 /* Reports a hit of the probed object. Returns true if the hit counts for now: for a closest query
- * it is the best so far (keep what you need to shade it), for others it is accepted. A t outside
- * the ray's interval or NaN is ignored. Only inside accel_intersect. */
+ * it is the best so far (the last for which it is true is the answer: keep what you need to shade
+ * it), for others it is accepted. A t outside the ray's interval or NaN is ignored. Only inside
+ * accel_intersect. */
 ACCEL_API bool accel_report(accel_probe *probe, double t, double u, double v);
 
 /* Host objects: the library knows their boxes (copied) and asks back for the hits. */
@@ -270,7 +336,39 @@ struct accel_query {
     uint64_t outside; /* raw hits before their object's padded box: see ACCEL_ORDER_RAW */
 };
 
-/* Finds the nearest hit. Returns true and fills *hit, or returns false and leaves *hit alone. */
+/* Finds the nearest hit. Returns true and fills *hit, or returns false and leaves *hit alone.
+ *
+ * Example, a ray that follows mirrors and glass until it leaves the scene of balls from above
+ * (ray.dir has length 1); returns how often it was reflected or refracted:
+ *
+ *     static int follow(const accel *a, const struct ball *balls, accel_ray *ray)
+ *     {
+ *         struct shading s;
+ *         accel_query query = {&s, 0, 0, 0, 0};
+ *         accel_hit hit;
+ *         int turns = 0;
+ *         for (; turns < 1000 && accel_closest(a, ray, &hit, &query); turns++) {
+ *             double at[3], dir[3], cosine = 0; // above 0: from outside
+ *             for (int k = 0; k < 3; k++) {
+ *                 at[k] = ray->org[k] + hit.t * ray->dir[k];
+ *                 cosine -= ray->dir[k] * s.normal[k];
+ *             }
+ *             const double index = balls[hit.prim].index;
+ *             const double ratio = cosine > 0 ? 1 / index : index;
+ *             const double square = 1 - ratio * ratio * (1 - cosine * cosine);
+ *             const bool reflected = index == 0 || square < 0; // a mirror, or total reflection
+ *             const double along = reflected ? 1 : ratio;
+ *             const double away =
+ *                 reflected ? 2 * cosine : ratio * cosine - copysign(sqrt(square), cosine);
+ *             for (int k = 0; k < 3; k++)
+ *                 dir[k] = along * ray->dir[k] + away * s.normal[k];
+ *             *ray = accel_ray_from(at, dir);
+ *             ray->skip.geom = hit.geom; // goes on inward or outward, whichever: no epsilon
+ *             ray->skip.prim = hit.prim;
+ *         }
+ *         return turns;
+ *     }
+ */
 ACCEL_API bool accel_closest(const accel *a, const accel_ray *ray, accel_hit *hit,
                              accel_query *query);
 
@@ -291,7 +389,7 @@ typedef bool accel_visit_id(void *user, accel_id id);
 
 /* Visits every primitive whose padded box holds `point`, by increasing (geometry, primitive), each
  * once. Returns false if the visitor ended the query. */
-ACCEL_API bool accel_point(const accel *a, const double point[3], accel_visit_id *visit, void *user,
+ACCEL_API bool accel_point(const accel *a, const double *point, accel_visit_id *visit, void *user,
                            accel_query *query);
 
 /* ----------------------------------------------------------- description ---- */
