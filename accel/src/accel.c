@@ -52,16 +52,19 @@ void build_phase(struct build *build, const char *name)
 {
     end_phase(build);
     build->phase = name;
+    build->done = 0.0;
     clock_gettime(CLOCK_MONOTONIC, &build->phase_start);
 }
 
 bool build_tick(struct build *build, double done)
 {
     const double seconds_between = 0.005;
+    if (done > build->done)
+        build->done = done < 1.0 ? done : 1.0;
     if (!build->hooks->progress || seconds_since(&build->last_tick) < seconds_between)
         return true;
     clock_gettime(CLOCK_MONOTONIC, &build->last_tick);
-    if (build->hooks->progress(build->hooks->user, build->phase, done))
+    if (build->hooks->progress(build->hooks->user, build->phase, build->done))
         return true;
     error_set(build->error, ACCEL_CANCELLED, "build %s: cancelled in phase '%s'; nothing was built",
               build->a->kind->info.name, build->phase);
