@@ -4,7 +4,9 @@
  */
 #include "config.h"
 #include "box.h"
+#include "environment.h"
 #include "kind.h"
+#include "seal.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -168,6 +170,23 @@ static bool run(struct build *build, const accel_scene *scene)
     return true;
 }
 
+static uint64_t seal_of_base(const accel *a)
+{
+    return seal_bytes(a, offsetof(accel, seal));
+}
+
+static uint64_t seal_of_kind(const accel *a)
+{
+    return seal_bytes(a + 1, a->kind->size - sizeof *a);
+}
+
+static void seal(accel *a)
+{
+    primitives_seal(&a->prims);
+    a->seal[0] = seal_of_base(a);
+    a->seal[1] = seal_of_kind(a);
+}
+
 static accel *allocate(const struct accel_kind *kind, const accel_hooks *hooks, accel_error *error)
 {
     struct memory m = {hooks->resize ? hooks->resize : memory_system, hooks->user, 0, 0, 0};
@@ -184,12 +203,33 @@ static accel *allocate(const struct accel_kind *kind, const accel_hooks *hooks, 
     return a;
 }
 
+/* In the default floating-point environment: see environment.h. */
+__attribute__((noinline)) static accel_status build_scene(accel **out, const accel_scene *scene,
+                                                          const char *config,
+                                                          const accel_hooks *hooks,
+                                                          accel_error *error)
+{
+    double option[MAX_OPTIONS];
+    const struct accel_kind *kind = config_parse(config, option, error);
+    accel *a = kind ? allocate(kind, hooks, error) : NULL;
+    if (!a)
+        return error->status;
+    memcpy(a->option, option, sizeof option);
+    struct build build = {.a = a, .hooks = hooks, .error = error};
+    if (!run(&build, scene)) {
+        accel_free(build.a);
+        return error->status;
+    }
+    seal(build.a);
+    *out = build.a;
+    return ACCEL_OK;
+}
+
 accel_status accel_build(accel **out, const accel_scene *scene, const char *config,
                          const accel_hooks *hooks, accel_error *error)
 {
     static const accel_hooks no_hooks = {.user = NULL};
     accel_error ignored;
-    double option[MAX_OPTIONS];
     error = error ? error : &ignored;
     hooks = hooks ? hooks : &no_hooks;
     error->status = ACCEL_OK;
@@ -206,18 +246,10 @@ accel_status accel_build(accel **out, const accel_scene *scene, const char *conf
                          "build: hooks.pilot is NULL, but hooks.pilot_count is %zu; nothing was "
                          "built",
                          hooks->pilot_count);
-    const struct accel_kind *kind = config_parse(config, option, error);
-    accel *a = kind ? allocate(kind, hooks, error) : NULL;
-    if (!a)
-        return error->status;
-    memcpy(a->option, option, sizeof option);
-    struct build build = {.a = a, .hooks = hooks, .error = error};
-    if (!run(&build, scene)) {
-        accel_free(build.a);
-        return error->status;
-    }
-    *out = build.a;
-    return ACCEL_OK;
+    const fenv_t callers = environment_enter();
+    const accel_status status = build_scene(out, scene, config, hooks, error);
+    environment_leave(&callers);
+    return status;
 }
 
 void accel_free(accel *a)
@@ -249,13 +281,26 @@ bool accel_padded_box(const accel *a, accel_id id, accel_box *box)
     return box->lo[0] <= box->hi[0];
 }
 
+/* The seals come first: after them every pointer and count of the struct is right. */
+__attribute__((noinline)) static void check(const accel *a, accel_error *error)
+{
+    if (a->seal[0] != seal_of_base(a) || a->seal[1] != seal_of_kind(a))
+        error_set(error, ACCEL_BROKEN, "accel: overwritten since it was built, %p",
+                  (const void *)a);
+    else if (primitives_validate(&a->prims, error) && a->prims.bounded.count > 0)
+        a->kind->validate(a, error);
+}
+
 accel_status accel_validate(const accel *a, accel_error *error)
 {
     accel_error ignored;
     error = error ? error : &ignored;
     error->status = ACCEL_OK;
     error->text[0] = '\0';
-    if (a->prims.bounded.count > 0)
-        a->kind->validate(a, error);
+    if (!a)
+        return error_set(error, ACCEL_BAD_ARGUMENT, "validate: the structure is NULL");
+    const fenv_t callers = environment_enter();
+    check(a, error);
+    environment_leave(&callers);
     return error->status;
 }

@@ -6,13 +6,15 @@
 
 #include <stdlib.h>
 
+#include "seal.h"
+
 /* What is the same for all nodes. */
 struct checker {
     const struct bvh *bvh;
     accel_error *error;
-    uint8_t *seen;  /* by id: referred to */
-    uint32_t nodes; /* visited so far */
-    uint32_t refs;  /* visited so far */
+    uint8_t *seen; /* by id: referred to */
+    size_t nodes;  /* visited so far */
+    size_t refs;   /* visited so far */
 };
 
 static bool broken(const struct checker *c, const char *what, uint32_t number)
@@ -23,7 +25,7 @@ static bool broken(const struct checker *c, const char *what, uint32_t number)
 
 static bool check_leaf(struct checker *c, struct boxtree_child leaf, const accel_box *box)
 {
-    if ((size_t)leaf.first + leaf.count > c->bvh->refs.count)
+    if ((uint64_t)leaf.first + leaf.count > c->bvh->refs.count)
         return broken(c, "a leaf ends behind the references, first", leaf.first);
     for (uint32_t i = 0; i < leaf.count; i++) {
         const uint32_t id = c->bvh->refs.at[leaf.first + i];
@@ -43,7 +45,7 @@ static bool check(struct checker *c, struct boxtree_child child, const accel_box
         return broken(c, "a child lies too deep, at", depth);
     if (child.count > 0)
         return check_leaf(c, child, box);
-    if (child.first >= c->bvh->nodes.count || c->nodes++ == c->bvh->nodes.count)
+    if (child.first >= c->bvh->nodes.count || c->nodes++ >= c->bvh->nodes.count)
         return broken(c, "out of range or below itself, node", child.first);
     const struct boxtree_node *node = &c->bvh->nodes.at[child.first];
     for (int i = 0; i < 2; i++) {
@@ -56,6 +58,28 @@ static bool check(struct checker *c, struct boxtree_child child, const accel_box
     return true;
 }
 
+/* Is every bounded primitive referred to, and nothing left over? */
+static bool check_all(const struct checker *c)
+{
+    const struct ids *bounded = &c->bvh->base.prims.bounded;
+    for (size_t i = 0; i < bounded->count; i++)
+        if (!c->seen[bounded->at[i]])
+            return broken(c, "in no leaf, primitive", bounded->at[i]);
+    return (c->nodes == c->bvh->nodes.count && c->refs == c->bvh->refs.count &&
+            c->refs == bounded->count) ||
+           broken(c, "nodes or references are left over; references found:", (uint32_t)c->refs);
+}
+
+/* Are the triangles those that were copied? */
+static bool check_triangles(const struct checker *c)
+{
+    uint64_t sum = 0;
+    for (size_t i = 0; i < c->bvh->refs.count; i++)
+        sum += seal_primitive(c->bvh->refs.at[i], c->bvh->triangles + 9 * i, 9);
+    return sum == c->bvh->base.prims.data_seal ||
+           broken(c, "overwritten since they were built, triangles,", (uint32_t)c->bvh->refs.count);
+}
+
 bool bvh_validate(const struct bvh *bvh, accel_error *error)
 {
     struct checker c = {bvh, error, calloc(bvh->base.prims.count, 1), 0, 0};
@@ -63,10 +87,8 @@ bool bvh_validate(const struct bvh *bvh, accel_error *error)
         error_set(error, ACCEL_NO_MEMORY, "validate: no memory for %u ids", bvh->base.prims.count);
         return false;
     }
-    bool fine = check(&c, bvh->root, &bvh->box, 0);
-    if (fine && (c.nodes != bvh->nodes.count || c.refs != bvh->base.prims.bounded.count))
-        fine =
-            broken(&c, "primitives are missing or nodes are left over; references found:", c.refs);
+    const bool fine = check(&c, bvh->root, &bvh->box, 0) && check_all(&c) &&
+                      (!bvh->triangles || check_triangles(&c));
     free(c.seen);
     return fine;
 }

@@ -217,7 +217,7 @@ static bool add_job(struct builder *b, const accel_box *box, uint32_t depth,
         return build_no_memory(b->build);
     memcpy(b->stack.at + job.begin, items.at, items.count * sizeof *items.at);
     b->jobs.at[b->jobs.count - 1] = job;
-    pool->grids.at[job.number] = (struct grid){.box = *box, .depth = depth, .cell = true};
+    pool->grids.at[job.number] = (struct grid){.box = *box, .depth = depth, .cell = 1};
     deepen(b, items, depth);
     return true;
 }

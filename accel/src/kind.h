@@ -25,6 +25,8 @@ struct accel {
     struct primitives prims;       /* what it is built over */
     double option[MAX_OPTIONS];    /* by the kind's option index; NAN stands for auto */
     accel_info info;               /* as accel_describe hands it out */
+    uint64_t seal[2];              /* over all above, and over what the kind adds: see seal.h. What
+                                      changes after accel_build lies in blocks of its own */
 };
 
 /* Values of a double's exponent field. */

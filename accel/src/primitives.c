@@ -5,11 +5,11 @@
  */
 #include "primitives.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 #include "box.h"
 #include "kind.h"
+#include "seal.h"
 
 /* Mean cost of one test in units of a node's visit: measured for triangles and spheres; a host's
  * object runs through at least a callback. */
@@ -189,9 +189,7 @@ static bool allocate_all(struct build *build, const accel_scene *scene, uint32_t
 
 static size_t data_doubles(const struct geometry *g)
 {
-    return g->type == ACCEL_TRIANGLES ? 9 * (size_t)g->count
-           : g->type == ACCEL_SPHERES ? 4 * (size_t)g->count
-                                      : 0;
+    return primitives_words(g) * (size_t)g->count;
 }
 
 static bool copy_header(struct build *build, const accel_geometry *from, uint32_t first,
@@ -275,12 +273,17 @@ static bool copy_geometry(struct build *build, const accel_geometry *from, uint3
 {
     struct primitives *p = &build->a->prims;
     struct geometry *g = &p->geometry[number];
+    const size_t words = primitives_words(g);
     for (uint32_t i = 0; i < g->count; i++) {
         const uint32_t id = g->first + i;
         if (p->geometry_of)
             p->geometry_of[id] = number;
-        if (!enter(build, id, copy_primitive(from, g, i, &p->box[id])))
+        const enum sort sort = copy_primitive(from, g, i, &p->box[id]);
+        if (sort == BOUNDED && words > 0)
+            p->data_seal += seal_primitive(id, g->data + words * i, words);
+        if (!enter(build, id, sort))
             return false;
+        p->box_seal += seal_primitive(id, &p->box[id], PRIMITIVES_BOX_WORDS);
         if (i % 4096 == 0 && !build_tick(build, (double)id / p->count))
             return false;
     }
@@ -361,21 +364,6 @@ bool primitives_copy(struct build *build, const accel_scene *scene)
     return true;
 }
 
-uint32_t *primitives_meeting(const struct primitives *p, const uint32_t *ids, size_t count,
-                             const accel_box *cell, size_t *kept, accel_error *error)
-{
-    uint32_t *list = malloc((count ? count : 1) * sizeof *list);
-    if (!list) {
-        error_set(error, ACCEL_NO_MEMORY, "validate: no memory for %zu ids", count);
-        return NULL;
-    }
-    *kept = 0;
-    for (size_t i = 0; i < count; i++)
-        if (box_overlaps(&p->box[ids[i]], cell))
-            list[(*kept)++] = ids[i];
-    return list;
-}
-
 static void free_data(struct memory *m, struct geometry *g)
 {
     if (g->data)
@@ -403,6 +391,7 @@ bool primitives_move_triangles(struct build *build, const uint32_t *ids, size_t 
     }
     for (uint32_t g = 0; g < p->geometry_count; g++)
         free_data(&build->a->memory, &p->geometry[g]);
+    p->moved = true;
     *out = moved;
     return true;
 }

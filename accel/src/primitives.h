@@ -43,6 +43,10 @@ struct primitives {
     struct ids unbounded;      /* objects with an infinite side, rising */
     accel_box bounds;          /* around the padded boxes of all that is bounded */
     bool only_triangles;       /* no spheres, no objects */
+    bool moved;                /* the kind has the triangles: see primitives_move_triangles */
+    uint64_t box_seal;         /* over all boxes: see seal.h */
+    uint64_t data_seal;        /* over the triangles and spheres that are bounded */
+    uint64_t geometry_seal;    /* over the geometries, once all is built */
     double test_cost;          /* mean cost of a test in units of visiting a node */
 };
 
@@ -55,12 +59,28 @@ bool primitives_copy(struct build *build, const accel_scene *scene);
 bool primitives_move_triangles(struct build *build, const uint32_t *ids, size_t count,
                                double **out);
 
+/* Notes the geometries as they now are. */
+void primitives_seal(struct primitives *p);
+
+/* Is all as it was built, and does every list hold what it should? All ids and indices are in range
+ * then. False: *error says what is not. */
+bool primitives_validate(const struct primitives *p, accel_error *error);
+
 /* Those of the ids whose boxes meet a cell, *kept of them in a new array that the caller free()s:
  * for checks. NULL: no memory, and *error says so. */
 uint32_t *primitives_meeting(const struct primitives *p, const uint32_t *ids, size_t count,
                              const accel_box *cell, size_t *kept, accel_error *error);
 
 void primitives_free(struct memory *m, struct primitives *p);
+
+/* Doubles of each of a geometry's primitives. */
+static inline size_t primitives_words(const struct geometry *g)
+{
+    return g->type == ACCEL_TRIANGLES ? 9 : g->type == ACCEL_SPHERES ? 4 : 0;
+}
+
+/* Doubles of a box. */
+enum { PRIMITIVES_BOX_WORDS = sizeof(accel_box) / sizeof(double) };
 
 static inline const struct geometry *primitives_geometry(const struct primitives *p, uint32_t id)
 {
