@@ -28,7 +28,8 @@ _Static_assert(sizeof kinds / sizeof *kinds <= MAX_KINDS + 1, "raise MAX_KINDS i
 
 const accel_kind_info *const *accel_kinds(size_t *count)
 {
-    *count = sizeof kinds / sizeof *kinds - 1;
+    if (count)
+        *count = sizeof kinds / sizeof *kinds - 1;
     return kinds;
 }
 
@@ -265,6 +266,12 @@ void accel_free(accel *a)
 
 void accel_describe(const accel *a, accel_info *info)
 {
+    if (!info)
+        return;
+    if (!a) {
+        *info = (accel_info){.kind = ""};
+        return;
+    }
     *info = a->info;
     info->bytes = a->memory.bytes;
     info->peak_bytes = a->memory.peak;
@@ -274,6 +281,8 @@ void accel_describe(const accel *a, accel_info *info)
 
 bool accel_padded_box(const accel *a, accel_id id, accel_box *box)
 {
+    if (!a || !box)
+        return false;
     const struct primitives *p = &a->prims;
     if (id.geom >= p->geometry_count || id.prim >= p->geometry[id.geom].count)
         return false;
