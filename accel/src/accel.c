@@ -4,7 +4,9 @@
  */
 #include "config.h"
 #include "box.h"
+#include "environment.h"
 #include "kind.h"
+#include "seal.h"
 #include "wide/wide_isa.h"
 
 #include <stdarg.h>
@@ -27,7 +29,8 @@ _Static_assert(sizeof kinds / sizeof *kinds <= MAX_KINDS + 1, "raise MAX_KINDS i
 
 const accel_kind_info *const *accel_kinds(size_t *count)
 {
-    *count = sizeof kinds / sizeof *kinds - 1;
+    if (count)
+        *count = sizeof kinds / sizeof *kinds - 1;
     return kinds;
 }
 
@@ -53,16 +56,19 @@ void build_phase(struct build *build, const char *name)
 {
     end_phase(build);
     build->phase = name;
+    build->done = 0.0;
     clock_gettime(CLOCK_MONOTONIC, &build->phase_start);
 }
 
 bool build_tick(struct build *build, double done)
 {
     const double seconds_between = 0.005;
+    if (done > build->done)
+        build->done = done < 1.0 ? done : 1.0;
     if (!build->hooks->progress || seconds_since(&build->last_tick) < seconds_between)
         return true;
     clock_gettime(CLOCK_MONOTONIC, &build->last_tick);
-    if (build->hooks->progress(build->hooks->user, build->phase, done))
+    if (build->hooks->progress(build->hooks->user, build->phase, build->done))
         return true;
     error_set(build->error, ACCEL_CANCELLED, "build %s: cancelled in phase '%s'; nothing was built",
               build->a->kind->info.name, build->phase);
@@ -166,6 +172,23 @@ static bool run(struct build *build, const accel_scene *scene)
     return true;
 }
 
+static uint64_t seal_of_base(const accel *a)
+{
+    return seal_bytes(a, offsetof(accel, seal));
+}
+
+static uint64_t seal_of_kind(const accel *a)
+{
+    return seal_bytes(a + 1, a->kind->size - sizeof *a);
+}
+
+static void seal(accel *a)
+{
+    primitives_seal(&a->prims);
+    a->seal[0] = seal_of_base(a);
+    a->seal[1] = seal_of_kind(a);
+}
+
 static accel *allocate(const struct accel_kind *kind, const accel_hooks *hooks, accel_error *error)
 {
     struct memory m = {hooks->resize ? hooks->resize : memory_system, hooks->user, 0, 0, 0};
@@ -182,12 +205,33 @@ static accel *allocate(const struct accel_kind *kind, const accel_hooks *hooks, 
     return a;
 }
 
+/* In the default floating-point environment: see environment.h. */
+__attribute__((noinline)) static accel_status build_scene(accel **out, const accel_scene *scene,
+                                                          const char *config,
+                                                          const accel_hooks *hooks,
+                                                          accel_error *error)
+{
+    double option[MAX_OPTIONS];
+    const struct accel_kind *kind = config_parse(config, option, error);
+    accel *a = kind ? allocate(kind, hooks, error) : NULL;
+    if (!a)
+        return error->status;
+    memcpy(a->option, option, sizeof option);
+    struct build build = {.a = a, .hooks = hooks, .error = error};
+    if (!run(&build, scene)) {
+        accel_free(build.a);
+        return error->status;
+    }
+    seal(build.a);
+    *out = build.a;
+    return ACCEL_OK;
+}
+
 accel_status accel_build(accel **out, const accel_scene *scene, const char *config,
                          const accel_hooks *hooks, accel_error *error)
 {
     static const accel_hooks no_hooks = {.user = NULL};
     accel_error ignored;
-    double option[MAX_OPTIONS];
     error = error ? error : &ignored;
     hooks = hooks ? hooks : &no_hooks;
     error->status = ACCEL_OK;
@@ -204,18 +248,10 @@ accel_status accel_build(accel **out, const accel_scene *scene, const char *conf
                          "build: hooks.pilot is NULL, but hooks.pilot_count is %zu; nothing was "
                          "built",
                          hooks->pilot_count);
-    const struct accel_kind *kind = config_parse(config, option, error);
-    accel *a = kind ? allocate(kind, hooks, error) : NULL;
-    if (!a)
-        return error->status;
-    memcpy(a->option, option, sizeof option);
-    struct build build = {.a = a, .hooks = hooks, .error = error};
-    if (!run(&build, scene)) {
-        accel_free(build.a);
-        return error->status;
-    }
-    *out = build.a;
-    return ACCEL_OK;
+    const fenv_t callers = environment_enter();
+    const accel_status status = build_scene(out, scene, config, hooks, error);
+    environment_leave(&callers);
+    return status;
 }
 
 void accel_free(accel *a)
@@ -231,6 +267,12 @@ void accel_free(accel *a)
 
 void accel_describe(const accel *a, accel_info *info)
 {
+    if (!info)
+        return;
+    if (!a) {
+        *info = (accel_info){.kind = ""};
+        return;
+    }
     *info = a->info;
     info->bytes = a->memory.bytes;
     info->peak_bytes = a->memory.peak;
@@ -240,6 +282,8 @@ void accel_describe(const accel *a, accel_info *info)
 
 bool accel_padded_box(const accel *a, accel_id id, accel_box *box)
 {
+    if (!a || !box)
+        return false;
     const uint32_t number = primitives_id(&a->prims, id);
     if (number == ACCEL_NONE)
         return false;
@@ -249,13 +293,26 @@ bool accel_padded_box(const accel *a, accel_id id, accel_box *box)
     return box->lo[0] <= box->hi[0];
 }
 
+/* The seals come first: after them every pointer and count of the struct is right. */
+__attribute__((noinline)) static void check(const accel *a, accel_error *error)
+{
+    if (a->seal[0] != seal_of_base(a) || a->seal[1] != seal_of_kind(a))
+        error_set(error, ACCEL_BROKEN, "accel: overwritten since it was built, %p",
+                  (const void *)a);
+    else if (primitives_validate(&a->prims, error) && a->prims.bounded.count > 0)
+        a->kind->validate(a, error);
+}
+
 accel_status accel_validate(const accel *a, accel_error *error)
 {
     accel_error ignored;
     error = error ? error : &ignored;
     error->status = ACCEL_OK;
     error->text[0] = '\0';
-    if (a->prims.bounded.count > 0)
-        a->kind->validate(a, error);
+    if (!a)
+        return error_set(error, ACCEL_BAD_ARGUMENT, "validate: the structure is NULL");
+    const fenv_t callers = environment_enter();
+    check(a, error);
+    environment_leave(&callers);
     return error->status;
 }

@@ -23,6 +23,7 @@
  */
 #include "auto_sample.h"
 #include "config.h"
+#include "number.h"
 
 #include <stdio.h>
 
@@ -229,23 +230,30 @@ static bool try_kinds(struct chooser *c)
     return true;
 }
 
+/* Rounded to tenths. */
+static struct number_text tenths(double x)
+{
+    return number_text(floor(10.0 * x + 0.5) / 10.0, 15);
+}
+
 /* Says what was chosen and why. */
 static void explain(const struct chooser *c)
 {
     const struct candidate *best = &c->tried[0];
     const bool given = c->build->hooks->pilot_count > 0;
     build_note(c->build,
-               "auto: %s; pilot of %zu %s and what leaves their hits: %.1f nodes, %.1f "
-               "tests, %.1f calls each",
+               "auto: %s; pilot of %zu %s and what leaves their hits: %s nodes, %s "
+               "tests, %s calls each",
                best->kind->info.name, pilot_count(c->build->hooks),
-               given ? "rays of the host" : "lines of its own", best->nodes, best->tests,
-               best->calls);
+               given ? "rays of the host" : "lines of its own", tenths(best->nodes).at,
+               tenths(best->tests).at, tenths(best->calls).at);
     char list[120];
     int used = 0;
     for (size_t i = 0; i < c->count && used < (int)sizeof list; i++)
-        used += snprintf(list + used, sizeof list - (size_t)used, " %s %.3g",
-                         c->tried[i].kind->info.name, c->tried[i].seconds);
-    build_note(c->build, "auto: seconds for %g rays:%s", c->build->a->option[RAYS], list);
+        used += snprintf(list + used, sizeof list - (size_t)used, " %s %s",
+                         c->tried[i].kind->info.name, number_text(c->tried[i].seconds, 3).at);
+    build_note(c->build, "auto: seconds for %s rays:%s",
+               number_text(c->build->a->option[RAYS], 6).at, list);
 }
 
 static bool choose(struct build *build, const struct accel_kind **kind)
@@ -256,8 +264,8 @@ static bool choose(struct build *build, const struct accel_kind **kind)
     *kind = linear;
     weigh_primitives(&c);
     if (1e-9 * rays * n * linear->cost.triangle < WORTH_CHOOSING) {
-        build_note(build, "auto: linear; %g rays over %g primitives do not pay for a structure",
-                   rays, n);
+        build_note(build, "auto: linear; %s rays over %s primitives do not pay for a structure",
+                   number_text(rays, 6).at, number_text(n, 6).at);
         return true;
     }
     const bool fine = sample_take(build, &c.sample) && try_kinds(&c);

@@ -4,6 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "number.h"
+
 enum { MAX_LIST = 300 };
 
 /* A part of the config string. */
@@ -23,6 +25,13 @@ static struct word take(const char **at, const char *ends)
     const struct word w = {*at, strcspn(*at, ends)};
     *at += w.size;
     return w;
+}
+
+/* How much of a word a complaint shows. */
+static int shown(struct word w)
+{
+    enum { MOST = 40 };
+    return (int)error_cut(w.at, w.size, MOST);
 }
 
 /* Levenshtein's distance between a word and a text, both cut to 31 characters. */
@@ -69,12 +78,12 @@ static void complain(accel_error *error, const char *what, const struct choice *
     if (!c->nearest) {
         error_set(error, ACCEL_BAD_CONFIG,
                   "config: %s '%.*s', but none is allowed; nothing was built", what,
-                  (int)c->wrong.size, c->wrong.at);
+                  shown(c->wrong), c->wrong.at);
         return;
     }
     error_set(error, ACCEL_BAD_CONFIG,
               "config: %s '%.*s', allowed are %s; did you mean '%s'? Nothing was built", what,
-              c->wrong.size < 40 ? (int)c->wrong.size : 40, c->wrong.at, c->list, c->nearest);
+              shown(c->wrong), c->wrong.at, c->list, c->nearest);
 }
 
 static const struct accel_kind *find_kind(struct word name, accel_error *error)
@@ -119,59 +128,15 @@ static bool parse_word(const accel_option *o, struct word value, double *out, ac
     return false;
 }
 
-static bool is_digit(struct word w, size_t i)
-{
-    return i < w.size && w.at[i] >= '0' && w.at[i] <= '9';
-}
-
-/* Digits from *i on, and moves *i past them. Returns how many there were. */
-static int read_digits(struct word w, size_t *i, double *value)
-{
-    int digits = 0;
-    for (; is_digit(w, *i); ++*i, digits++)
-        *value = *value * 10.0 + (w.at[*i] - '0');
-    return digits;
-}
-
-static int read_sign(struct word w, size_t *i)
-{
-    if (*i < w.size && (w.at[*i] == '-' || w.at[*i] == '+'))
-        return w.at[(*i)++] == '-' ? -1 : 1;
-    return 1;
-}
-
-/* [sign]digits[.digits][e[sign]digits]: the locale has no say, and there is no hex, inf or nan.
- * Exact for up to 15 digits and exponents up to 22, which is what options need. */
-static bool parse_digits(struct word w, double *out)
-{
-    double mantissa = 0.0, exponent = 0.0;
-    size_t i = 0;
-    const int sign = read_sign(w, &i);
-    int digits = read_digits(w, &i, &mantissa), behind = 0, exponent_sign = 1;
-    if (i < w.size && w.at[i] == '.') {
-        i++;
-        digits += behind = read_digits(w, &i, &mantissa);
-    }
-    if (digits > 0 && i < w.size && (w.at[i] == 'e' || w.at[i] == 'E')) {
-        i++;
-        exponent_sign = read_sign(w, &i);
-        if (read_digits(w, &i, &exponent) == 0)
-            return false;
-    }
-    exponent = exponent_sign * exponent - behind;
-    *out = sign * (exponent < 0 ? mantissa / pow(10.0, -exponent) : mantissa * pow(10.0, exponent));
-    return digits > 0 && i == w.size;
-}
-
 static bool parse_number(const accel_option *o, struct word value, double *out, accel_error *error)
 {
-    if (parse_digits(value, out) && *out >= o->min && *out <= o->max &&
+    if (number_parse(value.at, value.size, out) && *out >= o->min && *out <= o->max &&
         (!o->whole || *out == floor(*out)))
         return true;
     error_set(error, ACCEL_BAD_CONFIG,
-              "config: %s is '%.*s', allowed is %s from %g to %g%s; nothing was built", o->key,
-              value.size < 40 ? (int)value.size : 40, value.at,
-              o->whole ? "a whole number" : "a number", o->min, o->max,
+              "config: %s is '%.*s', allowed is %s from %s to %s%s; nothing was built", o->key,
+              shown(value), value.at, o->whole ? "a whole number" : "a number",
+              number_text(o->min, 6).at, number_text(o->max, 6).at,
               isnan(o->standard) ? " or auto" : "");
     return false;
 }
@@ -240,7 +205,7 @@ void config_print(const struct accel_kind *kind, const double option[MAX_OPTIONS
         else if (o->words)
             snprintf(value, sizeof value, "%s", o->words[(int)option[i]]);
         else
-            snprintf(value, sizeof value, "%.15g", option[i]);
+            snprintf(value, sizeof value, "%s", number_text_exact(option[i]).at);
         used += snprintf(text + used, size - (size_t)used, "%c%s=%s", i == 0 ? ':' : ',', o->key,
                          value);
     }

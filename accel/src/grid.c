@@ -8,6 +8,8 @@
  */
 #include "grid_walk.h"
 
+#include "number.h"
+
 struct grid_kind {
     accel base;            /* what every kind has */
     struct grid_pool pool; /* of one grid */
@@ -31,13 +33,15 @@ static void describe(struct build *build, const struct grid_kind *k, const struc
     info->leaves = k->pool.starts.count - 1;
     info->references = k->pool.refs.count;
     info->depth = 1;
-    build_note(build, "%u x %u x %u cells", g->cells[0], g->cells[1], g->cells[2]);
+    build_note(build, "%u x %u x %u cells, for density=%s%s", g->cells[0], g->cells[1], g->cells[2],
+               number_text(plan->density, 6).at,
+               isnan(k->base.option[DENSITY]) ? ", which auto found cheapest" : "");
     grid_note_empty(build, &k->pool);
     if (plan->coarser)
         build_note(
             build,
-            "coarser than density=%g asks: for memory in proportion, or as cells list most items",
-            plan->density);
+            "coarser than density=%s asks: for memory in proportion, or as cells list most items",
+            number_text(plan->density, 6).at);
 }
 
 static bool build(struct build *build)
@@ -51,7 +55,6 @@ static bool build(struct build *build)
     k->pool.grids.at[0] = (struct grid){.box = p->bounds};
     struct grid_plan plan =
         grid_plan(p, &k->pool, &k->pool.grids.at[0].box, all, k->base.option[DENSITY]);
-    k->base.option[DENSITY] = plan.density;
     build_phase(build, "grid");
     if (!grid_build(build, &k->pool, 0, all, &plan, 0.0, 1.0))
         return false;

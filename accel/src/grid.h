@@ -33,7 +33,7 @@ struct grid {
     size_t plane[3];    /* each axis' first plane in the pool; 4 * bricks + 1 of them */
     size_t brick;       /* the first brick in the pool; x runs fastest */
     uint32_t depth;     /* grids around this one */
-    bool cell;          /* stands for one cell of another grid, and is all that the cell lists */
+    uint32_t cell;      /* 1: stands for one cell of another grid, and is all that the cell lists */
 };
 
 /* The parts of one or many grids. */
@@ -95,6 +95,10 @@ void grid_give_up(struct grid_plan *plan);
  * The progress of the phase runs from `from` to `to`. */
 bool grid_build(struct build *build, struct grid_pool *pool, size_t number, struct grid_items items,
                 struct grid_plan *plan, double from, double to);
+
+/* Are the planes of grid `number` in order, and are its cells and their references in the pool? */
+bool grid_validate_frame(const accel *a, const struct grid_pool *pool, size_t number,
+                         accel_error *error);
 
 /* Checks the invariant for grid `number` over the items, which rise, and for the grids that stand
  * for its cells. */

@@ -31,9 +31,10 @@ static bool check_planes(const struct checker *c, int k)
 {
     const struct grid *g = c->grid;
     const uint32_t cells = g->cells[k];
-    if (cells == 0 || g->bricks[k] != (cells + GRID_BRICK - 1) / GRID_BRICK)
+    if (cells == 0 || g->bricks[k] != cells / GRID_BRICK + (cells % GRID_BRICK > 0))
         return broken(c, "the bricks do not hold the cells of axis", (size_t)k);
-    if (g->plane[k] + GRID_BRICK * (size_t)g->bricks[k] >= c->pool->planes.count)
+    if (g->plane[k] >= c->pool->planes.count ||
+        g->bricks[k] > (c->pool->planes.count - g->plane[k] - 1) / GRID_BRICK)
         return broken(c, "the planes end behind the pool, axis", (size_t)k);
     const double *plane = c->pool->planes.at + g->plane[k];
     if (plane[0] != g->box.lo[k] || plane[cells] != g->box.hi[k])
@@ -47,14 +48,25 @@ static bool check_planes(const struct checker *c, int k)
     return true;
 }
 
+/* Are so many bricks in the pool from the grid's first on? Their number may be beyond any type. */
+static bool bricks_fit(const struct grid *g, const struct grid_pool *pool)
+{
+    if (g->brick >= pool->masks.count)
+        return false;
+    size_t most = pool->masks.count - g->brick;
+    for (int k = 0; k < 3; k++)
+        most /= g->bricks[k];
+    return most > 0;
+}
+
 /* Are the runs of the cells where they should be? Finds first and cells. */
 static bool check_bricks(struct checker *c)
 {
     const struct grid *g = c->grid;
     const struct grid_pool *pool = c->pool;
-    const size_t bricks = (size_t)g->bricks[0] * g->bricks[1] * g->bricks[2];
-    if (g->brick + bricks > pool->masks.count || pool->firsts.count != pool->masks.count)
+    if (!bricks_fit(g, pool) || pool->firsts.count != pool->masks.count)
         return broken(c, "the bricks end behind the pool, first", g->brick);
+    const size_t bricks = (size_t)g->bricks[0] * g->bricks[1] * g->bricks[2];
     c->first = pool->firsts.at[g->brick];
     for (size_t i = g->brick; i < g->brick + bricks; i++) {
         if (pool->firsts.at[i] != c->first + c->cells)
@@ -162,12 +174,24 @@ static bool check_cell(const struct checker *c, size_t cell)
     const uint32_t ids = c->a->prims.count;
     if (at[0] >= ids && at[0] - ids >= c->pool->grids.count)
         return broken(c, "a cell names a grid that does not exist,", at[0] - ids);
-    if (at[0] >= ids && c->pool->grids.at[at[0] - ids].cell)
-        return count == 1 ? grid_validate(c->a, c->pool, at[0] - ids, want, c->error)
-                          : broken(c, "a grid does not stand alone for its cell, number", at[0]);
+    const struct grid *inner = at[0] < ids ? NULL : &c->pool->grids.at[at[0] - ids];
+    if (inner && inner->cell)
+        return count == 1 && inner->depth > c->grid->depth
+                   ? grid_validate(c->a, c->pool, at[0] - ids, want, c->error)
+                   : broken(c, "not alone in its cell, or not below the one around, grid",
+                            at[0] - ids);
     if (count != want.count || memcmp(at, want.at, count * sizeof *at) != 0)
         return broken(c, "a cell does not list what it meets, cell", c->first + cell);
     return true;
+}
+
+bool grid_validate_frame(const accel *a, const struct grid_pool *pool, size_t number,
+                         accel_error *error)
+{
+    struct checker c = {.a = a, .pool = pool, .grid = &pool->grids.at[number], .error = error};
+    if (c.grid->depth >= a->info.depth || c.grid->cell > 1)
+        return broken(&c, "too deep, or neither of a cell nor of a cluster, grid", number);
+    return check_planes(&c, 0) && check_planes(&c, 1) && check_planes(&c, 2) && check_bricks(&c);
 }
 
 bool grid_validate(const accel *a, const struct grid_pool *pool, size_t number,
@@ -175,8 +199,7 @@ bool grid_validate(const accel *a, const struct grid_pool *pool, size_t number,
 {
     struct checker c = {
         .a = a, .pool = pool, .grid = &pool->grids.at[number], .items = items, .error = error};
-    bool fine = check_planes(&c, 0) && check_planes(&c, 1) && check_planes(&c, 2) &&
-                check_bricks(&c) && send_all(&c);
+    bool fine = grid_validate_frame(a, pool, number, error) && check_bricks(&c) && send_all(&c);
     for (size_t i = 0; fine && i < c.cells; i++)
         fine = check_cell(&c, i);
     free(c.start);

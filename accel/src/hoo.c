@@ -29,6 +29,7 @@
 #include "wide/wide_form.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 struct hoo_kind {
     accel base;
@@ -83,7 +84,6 @@ static bool leave_octrees(struct build *build, struct hoo_kind *h)
     }
     h->lazy = (struct octree_lazy){
         .a = &h->base, .rule = octree_rule(h), .whole = (uint32_t)h->base.option[PART]};
-    fegetenv(&h->lazy.environment);
     return true;
 }
 
@@ -228,8 +228,11 @@ static bool check_cluster(const struct hoo_kind *h, size_t i, bool *seen, accel_
 {
     const struct clustering *c = &h->clustering;
     const struct cluster *cluster = &c->clusters.at[i];
-    if (cluster->count == 0 || (size_t)cluster->first + cluster->count > c->order.count)
+    if (cluster->count == 0 || (uint64_t)cluster->first + cluster->count > c->order.count)
         return broken(error, "no ids, or too many, in cluster", i);
+    const accel_box *root = h->later.count > 0 ? &h->later.at[i].box : &h->trees.at[i].box;
+    if (memcmp(root, &cluster->box, sizeof *root) != 0)
+        return broken(error, "the octree has another box than its cluster,", i);
     const uint32_t *ids = c->order.at + cluster->first;
     for (size_t j = 0; j < cluster->count; j++) {
         if (ids[j] >= h->base.prims.count || seen[ids[j]] || (j > 0 && ids[j - 1] >= ids[j]))
@@ -237,7 +240,7 @@ static bool check_cluster(const struct hoo_kind *h, size_t i, bool *seen, accel_
         seen[ids[j]] = true;
     }
     return h->later.count > 0
-               ? octree_validate_lazy(&h->base, &h->later.at[i], error)
+               ? octree_validate_lazy(&h->lazy, &h->later.at[i], ids, cluster->count, error)
                : octree_validate(&h->base, &h->pool, &h->trees.at[i], ids, cluster->count, error);
 }
 

@@ -48,8 +48,12 @@ struct hug_nesting {
     size_t lists;      /* clusters without a grid */
 };
 
+/* Progress of the phase that nests and then gathers items: where nesting ends. */
+#define HUG_NESTED 0.6
+
 /* Makes grid 0 and the other clusters' grids, with box and depth alone, and fills the nesting,
- * which must be zero; hug_nesting_free ends it, also after a failure. */
+ * which must be zero; hug_nesting_free ends it, also after a failure. Progress of the phase runs
+ * from 0 to HUG_NESTED. */
 bool hug_nest(struct build *build, struct grid_pool *pool, const struct clustering *c,
               struct hug_nesting *n);
 

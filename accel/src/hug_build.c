@@ -20,6 +20,11 @@ enum { BUDGET = 16 };
 /* Primitives that could be looked at in the time that a small grid takes. */
 enum { GRID_WORK = 64 };
 
+/* A part of the progress of a phase. */
+struct span {
+    double from, to;
+};
+
 /* A cell that becomes a grid. */
 struct job {
     struct grid_plan plan; /* of the grid */
@@ -36,7 +41,6 @@ struct builder {
     ARRAY_OF(size_t) begin;       /* by cluster's grid: its run in items; one more at the end */
     struct ids stack;             /* items of the cells that become grids, on the way down */
     ARRAY_OF(struct job) jobs;    /* on the way down */
-    double from, to;              /* progress of the grid under way */
     bool coarser;                 /* some grid is coarser than was asked for */
     bool full;                    /* the budget was met */
 };
@@ -67,7 +71,8 @@ static bool enter_items(struct builder *b, const uint32_t *home_of)
     for (size_t i = 0; i < p->bounded.count; i++) {
         const uint32_t id = p->bounded.at[i];
         b->items.at[b->begin.at[home_of[id]]++] = id;
-        if (i % 4096 == 0 && !build_tick(b->build, (double)i / (double)p->bounded.count))
+        if (i % 4096 == 0 && !build_tick(b->build, HUG_NESTED + (1.0 - HUG_NESTED) * (double)i /
+                                                                    (double)p->bounded.count))
             return false;
     }
     for (size_t i = 1; i < b->h->pool.grids.count; i++)
@@ -212,7 +217,7 @@ static bool add_job(struct builder *b, const accel_box *box, uint32_t depth,
         return build_no_memory(b->build);
     memcpy(b->stack.at + job.begin, items.at, items.count * sizeof *items.at);
     b->jobs.at[b->jobs.count - 1] = job;
-    pool->grids.at[job.number] = (struct grid){.box = *box, .depth = depth, .cell = true};
+    pool->grids.at[job.number] = (struct grid){.box = *box, .depth = depth, .cell = 1};
     deepen(b, items, depth);
     return true;
 }
@@ -233,7 +238,7 @@ static bool consider(struct builder *b, const struct grid *g, const accel_box *c
 }
 
 /* Takes the lists out of those cells of the grid just built that are better grids. */
-static bool take_crowded(struct builder *b, size_t number)
+static bool take_crowded(struct builder *b, size_t number, double done)
 {
     struct grid_pool *pool = &b->h->pool;
     const struct grid g = pool->grids.at[number];
@@ -256,7 +261,7 @@ static bool take_crowded(struct builder *b, size_t number)
             to += taken ? 0 : items.count;
             begin += items.count;
         }
-        if (!build_tick(b->build, b->to))
+        if (!build_tick(b->build, done))
             return false;
     }
     pool->starts.at[slot] = (uint32_t)to;
@@ -264,20 +269,41 @@ static bool take_crowded(struct builder *b, size_t number)
     return true;
 }
 
+/* The part of a span from `before` to `after` of `all`. */
+static struct span part_of(struct span s, size_t before, size_t after, size_t all)
+{
+    const double per = (s.to - s.from) / (double)all;
+    return (struct span){s.from + per * (double)before, s.from + per * (double)after};
+}
+
+/* The halves of a span: to build a grid, then those that stand for its cells. */
+static struct span first_half(struct span s)
+{
+    return part_of(s, 0, 1, 2);
+}
+
+static struct span second_half(struct span s)
+{
+    return part_of(s, 1, 2, 2);
+}
+
 /* Builds the grids that stand for cells of the grid just built, and those inside them. */
-static bool refine(struct builder *b, size_t number, uint32_t nesting)
+static bool refine(struct builder *b, size_t number, uint32_t nesting, struct span span)
 {
     const size_t first = b->jobs.count, stacked = b->stack.count;
     if (nesting == HUG_MAX_CELL_NESTING)
         return true;
-    if (!take_crowded(b, number))
+    if (!take_crowded(b, number, span.from))
         return false;
-    const size_t last = b->jobs.count;
+    const size_t last = b->jobs.count, all = b->stack.count - stacked;
     for (size_t i = first; i < last; i++) {
         struct job job = b->jobs.at[i];
+        const size_t before = job.begin - stacked;
         const struct grid_items items = {b->stack.at + job.begin, job.count};
-        if (!grid_build(b->build, &b->h->pool, job.number, items, &job.plan, b->to, b->to) ||
-            !refine(b, job.number, nesting + 1))
+        const struct span its = part_of(span, before, before + job.count, all);
+        const struct span half = first_half(its);
+        if (!grid_build(b->build, &b->h->pool, job.number, items, &job.plan, half.from, half.to) ||
+            !refine(b, job.number, nesting + 1, second_half(its)))
             return false;
     }
     b->jobs.count = first;
@@ -297,13 +323,15 @@ static bool build_grid(struct builder *b, size_t number)
     const bool paper = a->option[HUG_FORM] == HUG_FORM_PAPER;
     struct grid_plan plan = paper ? grid_plan_given(box, (uint32_t)a->option[HUG_CELLS])
                                   : grid_plan(&a->prims, pool, box, items, a->option[HUG_DENSITY]);
-    b->from = (double)begin / (double)b->items.count;
-    b->to = (double)(begin + items.count) / (double)b->items.count;
+    const struct span its =
+        part_of((struct span){0.0, 1.0}, begin, begin + items.count, b->items.count);
+    const struct span own = paper ? its : first_half(its);
     deepen(b, items, pool->grids.at[number].depth);
-    if (!grid_build(b->build, pool, number, items, &plan, b->from, b->to))
+    if (!grid_build(b->build, pool, number, items, &plan, own.from, own.to))
         return false;
     b->coarser |= plan.coarser;
-    return paper || refine(b, number, 0);
+    return (paper || refine(b, number, 0, second_half(its))) &&
+           build_step(b->build, GRID_WORK, its.to);
 }
 
 static void describe(const struct builder *b)
@@ -355,7 +383,7 @@ static bool run(struct builder *b)
         return false;
     build_phase(build, "grids");
     for (size_t i = 0; i + 1 < b->begin.count; i++)
-        if (!build_grid(b, i) || !build_step(build, GRID_WORK, b->to))
+        if (!build_grid(b, i))
             return false;
     grid_pool_trim(&build->a->memory, &b->h->pool);
     describe(b);

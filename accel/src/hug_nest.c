@@ -17,6 +17,10 @@ enum { FEW = 8 };
 /* Boxes that are looked at for one cluster: where more lie over each other nesting gains little. */
 enum { LOOKS = 64 };
 
+/* Progress of the phase: where the search grid is there, and where all surroundings are. */
+#define SEARCHABLE 0.3
+#define FOUND      0.5
+
 struct nester {
     struct build *build;          /* the build under way */
     const struct clustering *c;   /* what is nested */
@@ -92,7 +96,7 @@ static bool make_search(struct nester *s)
         const struct grid_items items = {refs.at, refs.count};
         struct grid_plan plan = grid_plan(&s->build->a->prims, &s->search,
                                           &s->search.grids.at[0].box, items, (double)NAN);
-        fine = grid_build(s->build, &s->search, 0, items, &plan, 0.0, 0.5);
+        fine = grid_build(s->build, &s->search, 0, items, &plan, 0.0, SEARCHABLE);
     }
     array_free(m, &refs);
     return fine;
@@ -139,15 +143,24 @@ static uint32_t find_around(const struct nester *s, uint32_t inner)
     return best;
 }
 
-/* Finds every cluster's surroundings. Returns how many clusters lie in no other's grid. */
-static size_t find_all(struct nester *s)
+/* Reports progress between two parts of the phase after i of the clusters. */
+static bool tick(const struct nester *s, size_t i, double from, double to)
 {
-    size_t outermost = 0;
+    return i % 4096 != 0 ||
+           build_tick(s->build, from + (to - from) * (double)i / (double)s->c->clusters.count);
+}
+
+/* Finds every cluster's surroundings, and how many clusters lie in no other's grid. */
+static bool find_all(struct nester *s, size_t *outermost)
+{
+    *outermost = 0;
     for (uint32_t i = 0; i < s->c->clusters.count; i++) {
         s->around.at[i] = s->search.masks.count ? find_around(s, i) : ACCEL_NONE;
-        outermost += s->around.at[i] == ACCEL_NONE;
+        *outermost += s->around.at[i] == ACCEL_NONE;
+        if (!tick(s, i, SEARCHABLE, FOUND))
+            return false;
     }
-    return outermost;
+    return true;
 }
 
 static bool add_grid(struct nester *s, const accel_box *box, uint32_t parent, uint32_t depth)
@@ -189,7 +202,7 @@ static bool place_all(struct nester *s, size_t outermost)
     for (size_t i = 0; i < s->order.count; i++) {
         if (!place(s, s->order.at[i].value))
             return false;
-        if (i % 4096 == 0 && !build_tick(s->build, 0.5 + 0.5 * (double)i / (double)s->order.count))
+        if (!tick(s, i, FOUND, HUG_NESTED))
             return false;
     }
     return true;
@@ -200,7 +213,9 @@ bool hug_nest(struct build *build, struct grid_pool *pool, const struct clusteri
 {
     struct nester s = {.build = build, .c = c, .pool = pool, .n = n};
     struct memory *m = &build->a->memory;
-    const bool fine = rank(&s) && make_search(&s) && place_all(&s, find_all(&s));
+    size_t outermost;
+    const bool fine =
+        rank(&s) && make_search(&s) && find_all(&s, &outermost) && place_all(&s, outermost);
     grid_pool_free(m, &s.search);
     array_free(m, &s.order);
     array_free(m, &s.rank);

@@ -12,7 +12,8 @@ struct checker {
     const accel *a;               /* the structure */
     const struct grid_pool *pool; /* of its grids */
     accel_error *error;           /* the first violation */
-    uint32_t *home;  /* by reference: the cluster's grid that lists it, or ACCEL_NONE */
+    uint32_t *home;  /* by reference: the cluster's grid that lists it or in which it stands for a
+                        cell, or ACCEL_NONE */
     size_t *begin;   /* by grid: its run in items; two more at the end */
     uint32_t *items; /* grid after grid, each run rising */
 };
@@ -28,34 +29,43 @@ static size_t references(const struct checker *c)
     return c->a->prims.count + c->pool->grids.count;
 }
 
+static bool find_homes(const struct checker *c, size_t number, uint32_t home);
+
+/* Notes that the grid lists a reference. */
+static bool find_home(const struct checker *c, const struct grid *g, uint32_t ref, uint32_t home)
+{
+    const uint32_t ids = c->a->prims.count, before = c->home[ref];
+    const struct grid *inner = ref < ids ? NULL : &c->pool->grids.at[ref - ids];
+    const bool cell = inner && inner->cell;
+    if (inner && inner->depth <= g->depth)
+        return broken(c, "a grid is not deeper than the one around it, number", ref - ids);
+    if (before != ACCEL_NONE && (cell || before != home))
+        return broken(c, "two grids or cells list item", ref);
+    c->home[ref] = home;
+    return !cell || find_homes(c, ref - ids, home);
+}
+
 /* Notes what a grid lists as at home in `home`, going into the grids that stand for its cells. */
 static bool find_homes(const struct checker *c, size_t number, uint32_t home)
 {
     const struct grid *g = &c->pool->grids.at[number];
-    const uint32_t ids = c->a->prims.count;
     size_t slot;
     const size_t count = grid_slots(c->pool, g, &slot);
-    if (slot + count >= c->pool->starts.count)
-        return broken(c, "the cells end behind the pool, grid", number);
-    if (g->depth >= HUG_MAX_DEPTH || g->depth >= c->a->info.depth)
-        return broken(c, "a grid lies too deep, number", number);
     for (size_t i = c->pool->starts.at[slot]; i < c->pool->starts.at[slot + count]; i++) {
         const uint32_t ref = c->pool->refs.at[i];
         if (ref >= references(c))
-            return broken(c, "a cell names a grid that does not exist,", ref - ids);
-        const struct grid *inner = ref < ids ? NULL : &c->pool->grids.at[ref - ids];
-        if (inner && inner->depth <= g->depth)
-            return broken(c, "a grid is not deeper than the one around it, number", ref - ids);
-        if (inner && inner->cell) {
-            if (!find_homes(c, ref - ids, home))
-                return false;
-        } else if (c->home[ref] != ACCEL_NONE && c->home[ref] != home) {
-            return broken(c, "two grids list item", ref);
-        } else {
-            c->home[ref] = home;
-        }
+            return broken(c, "a cell names a grid that does not exist,", ref - c->a->prims.count);
+        if (!find_home(c, g, ref, home))
+            return false;
     }
     return true;
+}
+
+/* Is it an item of a cluster's grid? */
+static bool is_item(const struct checker *c, uint32_t ref)
+{
+    const uint32_t ids = c->a->prims.count;
+    return c->home[ref] != ACCEL_NONE && (ref < ids || !c->pool->grids.at[ref - ids].cell);
 }
 
 /* Has everything a home that should have one? Counts the items by home. */
@@ -66,11 +76,9 @@ static bool count_items(const struct checker *c)
         if (c->home[p->bounded.at[i]] == ACCEL_NONE)
             return broken(c, "no grid lists primitive", p->bounded.at[i]);
     for (uint32_t ref = 0; ref < references(c); ref++) {
-        const struct grid *g = ref < p->count ? NULL : &c->pool->grids.at[ref - p->count];
-        if (g && !g->cell && (c->home[ref] == ACCEL_NONE) != (ref == p->count))
-            return broken(c, "a cluster's grid has no home, or the first has one, number",
-                          ref - p->count);
-        if (c->home[ref] != ACCEL_NONE)
+        if (ref >= p->count && (c->home[ref] == ACCEL_NONE) != (ref == p->count))
+            return broken(c, "a grid has no home, or the first has one, number", ref - p->count);
+        if (is_item(c, ref))
             c->begin[c->home[ref] + 1]++;
     }
     for (size_t i = 0; i < c->pool->grids.count; i++)
@@ -82,7 +90,7 @@ static bool count_items(const struct checker *c)
 static bool check_grids(const struct checker *c)
 {
     for (uint32_t ref = 0; ref < references(c); ref++)
-        if (c->home[ref] != ACCEL_NONE)
+        if (is_item(c, ref))
             c->items[c->begin[c->home[ref]]++] = ref;
     for (size_t i = 0, begin = 0; i < c->pool->grids.count; begin = c->begin[i++])
         if (!c->pool->grids.at[i].cell &&
@@ -96,6 +104,11 @@ static bool check(const struct checker *c)
 {
     for (uint32_t ref = 0; ref < references(c); ref++)
         c->home[ref] = ACCEL_NONE;
+    if (c->a->info.depth > HUG_MAX_DEPTH)
+        return broken(c, "grids lie too deep, at", c->a->info.depth);
+    for (size_t i = 0; i < c->pool->grids.count; i++)
+        if (!grid_validate_frame(c->a, c->pool, i, c->error))
+            return false;
     for (size_t i = 0; i < c->pool->grids.count; i++)
         if (!c->pool->grids.at[i].cell && !find_homes(c, i, (uint32_t)i))
             return false;

@@ -27,6 +27,8 @@ struct accel {
     double option[MAX_OPTIONS];    /* by the kind's option index; NAN stands for auto */
     accel_info info;               /* as accel_describe hands it out */
     const struct wide *fast;       /* the tree that answers closest and any queries, or NULL */
+    uint64_t seal[2];              /* over all above, and over what the kind adds: see seal.h. What
+                                      changes after accel_build lies in blocks of its own */
 };
 
 /* Values of a double's exponent field. */
@@ -34,10 +36,11 @@ enum { BUILD_SIZES = 2048 };
 
 /* One build under way. */
 struct build {
-    struct accel *a;             /* what is built */
-    const accel_hooks *hooks;    /* never NULL */
-    accel_error *error;          /* first error; never NULL */
-    const char *phase;           /* name of the phase under way */
+    struct accel *a;          /* what is built */
+    const accel_hooks *hooks; /* never NULL */
+    accel_error *error;       /* first error; never NULL */
+    const char *phase;        /* name of the phase under way */
+    double done;              /* part of it that is done, as it is told: never less than before */
     struct timespec phase_start; /* when it began */
     struct timespec last_tick;   /* when the progress hook was last called */
     size_t untold;               /* primitives looked at since the last question for the time */
@@ -88,8 +91,9 @@ extern const accel_kind_info *const kinds[];
 /* Starts the next phase of the build and notes the time of the last one. */
 void build_phase(struct build *build, const char *name);
 
-/* Tells the progress hook how far the phase is, in 0..1, at most every few milliseconds; call it
- * often. False if the build is cancelled. */
+/* Tells the progress hook how far the phase is, at most every few milliseconds; call it often. What
+ * is told is the most of the phase so far, and in 0..1, whatever `done` is: a builder that takes
+ * work back, or whose guess was too high, need not care. False if the build is cancelled. */
 bool build_tick(struct build *build, double done);
 
 /* The same in small steps: after each, tell how many primitives it looked at. To ask for the time

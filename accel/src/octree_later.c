@@ -10,6 +10,8 @@
 
 #include <string.h>
 
+#include "environment.h"
+
 /* The hooks of the structure, but an account of its own. */
 static struct memory account(const struct octree_lazy *lazy)
 {
@@ -46,19 +48,22 @@ static struct octree_part *pack(struct memory *m, const struct octree_pool *pool
                          pool->later.count * sizeof *pool->later.at +
                          (pool->refs.count + pool->later_ids.count) * sizeof(uint32_t);
     struct octree_part *part = memory_resize(m, NULL, 0, bytes);
-    if (!part)
+    if (!part || (uintptr_t)part & OCTREE_MARK) { /* aligned worse than malloc does */
+        memory_resize(m, part, part ? bytes : 0, 0);
         return NULL;
+    }
     part->bytes = bytes;
     place_pool(&part->pool, pool, (char *)(part + 1));
     return part;
 }
 
-static struct octree_part *make_part(const struct octree_lazy *lazy,
-                                     const struct octree_later *later, const accel_box *tree)
+/* In the environment of builds: see environment.h. */
+__attribute__((noinline)) static struct octree_part *
+make_part(const struct octree_lazy *lazy, const struct octree_later *later, const accel_box *tree)
 {
     static const accel_hooks no_hooks = {.user = NULL};
     accel own = {.kind = lazy->a->kind, .memory = account(lazy), .prims = lazy->a->prims};
-    accel_error error;
+    accel_error error = {.status = ACCEL_OK};
     struct build build = {.a = &own, .hooks = &no_hooks, .error = &error, .phase = "later"};
     struct octree_pool pool = {.nodes = 0};
     struct octree_cell root;
@@ -86,11 +91,9 @@ static struct octree_part *make_part_as_in_build(const struct octree_lazy *lazy,
                                                  const struct octree_later *later,
                                                  const accel_box *tree)
 {
-    fenv_t callers;
-    fegetenv(&callers);
-    fesetenv(&lazy->environment);
+    const fenv_t callers = environment_enter();
     struct octree_part *part = make_part(lazy, later, tree);
-    fesetenv(&callers);
+    environment_leave(&callers);
     return part;
 }
 
@@ -110,26 +113,45 @@ static void turn_away(struct octree_later *later)
                                             memory_order_relaxed);
 }
 
+/* Makes the part known. If another thread was quicker, frees it and returns the other one. */
+static const struct octree_part *publish(const struct octree_lazy *lazy, struct octree_later *later,
+                                         struct octree_part *part)
+{
+    const uintptr_t address = (uintptr_t)part, marked = address | octree_mark(address);
+    uintptr_t other = 0;
+    if (!atomic_compare_exchange_strong_explicit(&later->built, &other, marked,
+                                                 memory_order_acq_rel, memory_order_acquire)) {
+        free_part(lazy, part);
+        return (const struct octree_part *)(other & ~(uintptr_t)OCTREE_MARK);
+    }
+    atomic_store_explicit(&later->check, ~marked, memory_order_release);
+    return part;
+}
+
 const struct octree_part *octree_build_part(const struct octree_lazy *lazy,
                                             struct octree_later *later, const accel_box *tree)
 {
     if (!is_worth_a_try(later))
         return NULL;
-    struct octree_part *part = make_part_as_in_build(lazy, later, tree), *other = NULL;
-    if (!part) {
-        turn_away(later);
-        return NULL;
-    }
-    if (atomic_compare_exchange_strong_explicit(&later->built, &other, part, memory_order_acq_rel,
-                                                memory_order_acquire))
-        return part;
-    free_part(lazy, part);
-    return other;
+    struct octree_part *part = make_part_as_in_build(lazy, later, tree);
+    if (part)
+        return publish(lazy, later, part);
+    turn_away(later);
+    return NULL;
+}
+
+bool octree_part_is_sound(const struct octree_later *later, const struct octree_part **part)
+{
+    const uintptr_t check = atomic_load_explicit(&later->check, memory_order_acquire);
+    const uintptr_t built = atomic_load_explicit(&later->built, memory_order_acquire);
+    const uintptr_t address = built & ~(uintptr_t)OCTREE_MARK;
+    *part = check ? (const struct octree_part *)address : NULL;
+    return (!check || check == ~built) && built == (address | octree_mark(address));
 }
 
 bool octree_count(const struct octree_later *later, struct octree_census *census)
 {
-    const struct octree_part *part = atomic_load_explicit(&later->built, memory_order_acquire);
+    const struct octree_part *part = octree_part_of(later);
     if (!part) {
         census->unbuilt += later->owned;
         return false;
@@ -148,7 +170,7 @@ bool octree_count(const struct octree_later *later, struct octree_census *census
 
 void octree_free_parts(const struct octree_lazy *lazy, struct octree_later *later)
 {
-    struct octree_part *part = atomic_load_explicit(&later->built, memory_order_relaxed);
+    struct octree_part *part = octree_part_of(later);
     if (!part)
         return;
     for (size_t i = 0; i < part->pool.later.count; i++)

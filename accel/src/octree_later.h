@@ -10,7 +10,7 @@
  *
  * Invariant: what is built is, cell by cell, what octree_build would have made: parts begin only
  * where no split above can be taken back, with what the builder had at hand there, and are built in
- * the floating-point environment of accel_build. So neither the order of rays nor the number of
+ * the environment of builds (environment.h). So neither the order of rays nor the number of
  * threads changes the structure or an answer.
  *
  * Without memory for a part its ids are tested as a list, which answers the same (query.h); it is
@@ -22,7 +22,6 @@
 #ifndef ACCEL_OCTREE_LATER_H
 #define ACCEL_OCTREE_LATER_H
 
-#include <fenv.h>
 #include <stdatomic.h>
 
 #include "octree.h"
@@ -37,9 +36,25 @@ struct octree_later {
     uint32_t depth;      /* of the cell in its tree */
     uint32_t failed;     /* the builder's, as is the budget */
     double budget;
-    atomic_uint turned_away;           /* entries since there was no memory; 0: there was */
-    struct octree_part *_Atomic built; /* NULL until a ray enters it */
+    atomic_uint turned_away; /* entries since there was no memory; 0: there was */
+    atomic_uintptr_t built;  /* 0 until a ray enters it; then the part's address, and its mark in
+                                the low bits */
+    atomic_uintptr_t check;  /* 0; then, a moment after, the complement of built */
 };
+
+/* The low bits of an address, which are 0. */
+enum { OCTREE_MARK = 7 };
+
+/* The mark of an address: the sum without carry of its bits in threes. So if one bit of `built`
+ * changes, be it 0 or not, its mark is wrong: what leads to other memory is never followed by
+ * accel_validate, not even in the moment before `check` is set. */
+static inline uintptr_t octree_mark(uintptr_t address)
+{
+    uint64_t sum = address;
+    for (int shift = 48; shift >= 3; shift /= 2)
+        sum ^= sum >> shift;
+    return (uintptr_t)sum & OCTREE_MARK;
+}
 
 /* A part as it is built: one block, in which its pool lies too, the nodes first. So what a ray
  * needs to enter, the end of this and the first node, is in one or two lines of the cache.
@@ -56,8 +71,7 @@ struct octree_part {
 struct octree_lazy {
     const accel *a;
     struct octree_rule rule;
-    uint32_t whole;     /* a part of no more primitives is built as a whole */
-    fenv_t environment; /* that of accel_build */
+    uint32_t whole; /* a part of no more primitives is built as a whole */
 };
 
 /* A whole tree, to be built later over ids[0 .. count - 1], count > 0, all inside `box`. The ids
@@ -74,11 +88,21 @@ bool octree_grow_part(struct build *build, struct octree_pool *pool, struct octr
 const struct octree_part *octree_build_part(const struct octree_lazy *lazy,
                                             struct octree_later *later, const accel_box *tree);
 
+/* The part, or NULL if it is not built. */
+static inline struct octree_part *octree_part_of(const struct octree_later *later)
+{
+    const uintptr_t built = atomic_load_explicit(&later->built, memory_order_acquire);
+    return (struct octree_part *)(built & ~(uintptr_t)OCTREE_MARK);
+}
+
+/* The same for checks, also while it is built: false if what leads to the part was overwritten. */
+bool octree_part_is_sound(const struct octree_later *later, const struct octree_part **part);
+
 /* The part, which is built if this is the first entry. NULL: test its ids. */
 static inline const struct octree_part *
 octree_enter(const struct octree_lazy *lazy, struct octree_later *later, const accel_box *tree)
 {
-    const struct octree_part *part = atomic_load_explicit(&later->built, memory_order_acquire);
+    const struct octree_part *part = octree_part_of(later);
     return __builtin_expect(part != NULL, 1) ? part : octree_build_part(lazy, later, tree);
 }
 
@@ -97,7 +121,8 @@ struct octree_census {
 bool octree_count(const struct octree_later *later, struct octree_census *census);
 
 /* As octree_validate, for as much as is built. */
-bool octree_validate_lazy(const accel *a, const struct octree_later *tree, accel_error *error);
+bool octree_validate_lazy(const struct octree_lazy *lazy, const struct octree_later *tree,
+                          const uint32_t *ids, size_t count, accel_error *error);
 
 /* Frees what was built below. */
 void octree_free_parts(const struct octree_lazy *lazy, struct octree_later *later);

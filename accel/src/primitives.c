@@ -5,11 +5,11 @@
  */
 #include "primitives.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 #include "box.h"
 #include "kind.h"
+#include "seal.h"
 
 /* Mean cost of one test in units of a node's visit: measured for triangles and spheres; a host's
  * object runs through at least a callback. */
@@ -189,9 +189,7 @@ static bool allocate_all(struct build *build, const accel_scene *scene, uint32_t
 
 static size_t data_doubles(const struct geometry *g)
 {
-    return g->type == ACCEL_TRIANGLES ? 9 * (size_t)g->count
-           : g->type == ACCEL_SPHERES ? 4 * (size_t)g->count
-                                      : 0;
+    return primitives_words(g) * (size_t)g->count;
 }
 
 static bool copy_header(struct build *build, const accel_geometry *from, uint32_t first,
@@ -275,12 +273,17 @@ static bool copy_geometry(struct build *build, const accel_geometry *from, uint3
 {
     struct primitives *p = &build->a->prims;
     struct geometry *g = &p->geometry[number];
+    const size_t words = primitives_words(g);
     for (uint32_t i = 0; i < g->count; i++) {
         const uint32_t id = g->first + i;
         if (p->geometry_of)
             p->geometry_of[id] = number;
-        if (!enter(build, id, copy_primitive(from, g, i, &p->box[id])))
+        const enum sort sort = copy_primitive(from, g, i, &p->box[id]);
+        if (sort == BOUNDED && words > 0)
+            p->data_seal += seal_primitive(id, g->data + words * i, words);
+        if (!enter(build, id, sort))
             return false;
+        p->box_seal += seal_primitive(id, &p->box[id], PRIMITIVES_BOX_WORDS);
         if (i % 4096 == 0 && !build_tick(build, (double)id / p->count))
             return false;
     }
@@ -361,50 +364,11 @@ bool primitives_copy(struct build *build, const accel_scene *scene)
     return true;
 }
 
-uint32_t *primitives_meeting(const struct primitives *p, const uint32_t *ids, size_t count,
-                             const accel_box *cell, size_t *kept, accel_error *error)
-{
-    uint32_t *list = malloc((count ? count : 1) * sizeof *list);
-    if (!list) {
-        error_set(error, ACCEL_NO_MEMORY, "validate: no memory for %zu ids", count);
-        return NULL;
-    }
-    *kept = 0;
-    for (size_t i = 0; i < count; i++)
-        if (box_overlaps(&p->box[ids[i]], cell))
-            list[(*kept)++] = ids[i];
-    return list;
-}
-
 static void free_data(struct memory *m, struct geometry *g)
 {
     if (g->data)
         memory_resize(m, g->data, data_doubles(g) * sizeof(double), 0);
     g->data = NULL;
-}
-
-bool primitives_move_triangles(struct build *build, const uint32_t *ids, size_t count, double **out)
-{
-    struct primitives *p = &build->a->prims;
-    *out = NULL;
-    if (!p->only_triangles)
-        return true;
-    const size_t size = 9 * sizeof(double);
-    double *moved = allocate(build, count, size);
-    if (!moved)
-        return false;
-    for (size_t i = 0; i < count; i++) {
-        const struct geometry *g = primitives_geometry(p, ids[i]);
-        memcpy(moved + 9 * i, g->data + 9 * (size_t)(ids[i] - g->first), size);
-        if (i % 4096 == 0 && !build_tick(build, (double)i / (double)count)) {
-            memory_resize(&build->a->memory, moved, count * size, 0);
-            return false;
-        }
-    }
-    for (uint32_t g = 0; g < p->geometry_count; g++)
-        free_data(&build->a->memory, &p->geometry[g]);
-    *out = moved;
-    return true;
 }
 
 void primitives_leave(struct memory *m, struct primitives *p)
@@ -413,6 +377,7 @@ void primitives_leave(struct memory *m, struct primitives *p)
         free_data(m, &p->geometry[g]);
     memory_resize(m, p->box, p->count * sizeof *p->box, 0);
     memory_resize(m, p->bounded.at, p->bounded.room * sizeof *p->bounded.at, 0);
+    p->left = true;
     p->box = NULL;
     p->bounded.at = NULL;
     p->bounded.room = 0;

@@ -44,21 +44,26 @@ struct primitives {
     struct ids unbounded;      /* objects with an infinite side, rising */
     accel_box bounds;          /* around the padded boxes of all that is bounded */
     bool only_triangles;       /* no spheres, no objects */
+    bool left;                 /* the kind alone has the triangles: see primitives_leave */
+    uint64_t box_seal;         /* over all boxes: see seal.h */
+    uint64_t data_seal;        /* over the triangles and spheres that are bounded */
+    uint64_t geometry_seal;    /* over the geometries, once all is built */
     double test_cost;          /* mean cost of a test in units of visiting a node */
 };
 
 /* Copies and checks the scene, filling the counts in build->a->info. False: see build->error. */
 bool primitives_copy(struct build *build, const accel_scene *scene);
 
-/* For a kind that refers to each primitive once: if there are only triangles, moves their vertices
- * into *out, a new array of 9 doubles for each of ids[0 .. count - 1] in that order, which the kind
- * then owns, and frees the geometries' own. Otherwise *out is NULL. False if there is no memory. */
-bool primitives_move_triangles(struct build *build, const uint32_t *ids, size_t count,
-                               double **out);
-
 /* Where there are only bounded triangles, and the kind keeps their vertices: frees vertices, boxes
  * and the list of ids (not its count), for good. */
 void primitives_leave(struct memory *m, struct primitives *p);
+
+/* Notes the geometries as they now are. */
+void primitives_seal(struct primitives *p);
+
+/* Is all as it was built, and does every list hold what it should? All ids and indices are in range
+ * then. False: *error says what is not. */
+bool primitives_validate(const struct primitives *p, accel_error *error);
 
 /* Those of the ids whose boxes meet a cell, *kept of them in a new array that the caller free()s:
  * for checks. NULL: no memory, and *error says so. */
@@ -66,6 +71,15 @@ uint32_t *primitives_meeting(const struct primitives *p, const uint32_t *ids, si
                              const accel_box *cell, size_t *kept, accel_error *error);
 
 void primitives_free(struct memory *m, struct primitives *p);
+
+/* Doubles of each of a geometry's primitives. */
+static inline size_t primitives_words(const struct geometry *g)
+{
+    return g->type == ACCEL_TRIANGLES ? 9 : g->type == ACCEL_SPHERES ? 4 : 0;
+}
+
+/* Doubles of a box. */
+enum { PRIMITIVES_BOX_WORDS = sizeof(accel_box) / sizeof(double) };
 
 static inline const struct geometry *primitives_geometry(const struct primitives *p, uint32_t id)
 {

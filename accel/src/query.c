@@ -7,7 +7,7 @@
 #include "sphere.h"
 #include "triangle.h"
 
-/* A probe as the library sees it. The public part comes first, so accel_report finds the rest. */
+/* A probe as the library sees it. The public part, and so each copy of it, leads back here. */
 struct probing {
     accel_probe probe;
     struct query *q;
@@ -106,13 +106,16 @@ static void test_object(struct query *q, const struct geometry *g, uint32_t id, 
         return;
     const double limit = g->order == ACCEL_ORDER_RAW && q->limit < q->tmax ? q->limit : q->tmax;
     struct probing probing = {
-        {q->ray, g->user, q->caller, id - g->first, id == q->skip, limit}, q, s, g->order, id};
+        {q->ray, g->user, q->caller, id - g->first, id == q->skip, limit, NULL}, q, s, g->order, id};
+    probing.probe.library = &probing;
     g->intersect(&probing.probe);
 }
 
 bool accel_report(accel_probe *probe, double t, double u, double v)
 {
-    struct probing *p = (struct probing *)probe;
+    if (!probe || !probe->library)
+        return false;
+    struct probing *p = probe->library;
     struct query *q = p->q;
     const bool raw = p->order == ACCEL_ORDER_RAW;
     const double key = raw ? t : clamp(t, p->s);

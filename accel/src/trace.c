@@ -9,8 +9,10 @@
 
 #include <string.h>
 
-static bool valid(const accel_ray *ray)
+static bool valid(const accel *a, const accel_ray *ray)
 {
+    if (!a || !ray)
+        return false;
     double sum = 0.0;
     for (int k = 0; k < 3; k++) {
         if (!isfinite(ray->org[k]) || !isfinite(ray->dir[k]))
@@ -117,29 +119,30 @@ static bool find_first(struct query *q, const accel *a, const accel_ray *ray, bo
 
 bool accel_closest(const accel *a, const accel_ray *ray, accel_hit *hit, accel_query *query)
 {
-    if (a->fast) {
+    if (a && ray && a->fast) {
         const enum wide_answer answer = a->fast->isa->closest(a, a->fast, ray, hit, query);
         if (answer != WIDE_ANY_OTHER_WAY)
             return answer == WIDE_HIT;
     }
-    if (!valid(ray))
+    if (!valid(a, ray))
         return refuse(query);
     struct query q;
     struct found found;
     if (!find_first(&q, a, ray, false, &found, query))
         return false;
-    *hit = hit_from(&a->prims, &found);
+    if (hit)
+        *hit = hit_from(&a->prims, &found);
     return true;
 }
 
 bool accel_any(const accel *a, const accel_ray *ray, accel_query *query)
 {
-    if (a->fast) {
+    if (a && ray && a->fast) {
         const enum wide_answer answer = a->fast->isa->any(a, a->fast, ray, query);
         if (answer != WIDE_ANY_OTHER_WAY)
             return answer == WIDE_HIT;
     }
-    if (!valid(ray))
+    if (!valid(a, ray))
         return refuse(query);
     struct query q;
     struct found found;
@@ -180,7 +183,7 @@ static bool visit_hit(void *visitor, const struct primitives *p, const struct fo
 bool accel_all(const accel *a, const accel_ray *ray, accel_visit_hit *visit, void *user,
                accel_query *query)
 {
-    if (!valid(ray)) {
+    if (!visit || !valid(a, ray)) {
         refuse(query);
         return true;
     }
@@ -202,17 +205,20 @@ static bool visit_id(void *visitor, const struct primitives *p, const struct fou
     return v->visit(v->user, primitives_name(p, f->id));
 }
 
+static bool is_finite_point(const double point[3])
+{
+    return isfinite(point[0]) && isfinite(point[1]) && isfinite(point[2]);
+}
+
 bool accel_point(const accel *a, const double *point, accel_visit_id *visit, void *user,
                  accel_query *query)
 {
     const double nowhere[3] = {0.0, 0.0, 0.0};
-    const accel_ray ray = accel_ray_from(point, nowhere);
-    for (int k = 0; k < 3; k++) {
-        if (!isfinite(point[k])) {
-            refuse(query);
-            return true;
-        }
+    if (!a || !point || !visit || !is_finite_point(point)) {
+        refuse(query);
+        return true;
     }
+    const accel_ray ray = accel_ray_from(point, nowhere);
     struct query q;
     struct found found[QUERY_BATCH];
     prepare(&q, a, &ray, found, QUERY_BATCH, query);

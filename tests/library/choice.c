@@ -91,7 +91,7 @@ static void pilot_is_traced(void **state)
     const accel_hooks hooks = {.pilot = &ray, .pilot_count = 1};
     accel *a;
     const accel_info info = build_auto(&a, &s, "auto", &hooks);
-    assert_true(strcmp(info.kind, "linear") == 0 || noted(&info, ": 0.0 nodes, 0.0 tests"));
+    assert_true(strcmp(info.kind, "linear") == 0 || noted(&info, ": 0 nodes, 0 tests"));
     accel_free(a);
     scene_free(&s);
 }

@@ -38,10 +38,22 @@
  * do not cover what queries build. No callback of the scene is called by building, only by testing;
  * boxes were copied.
  *
- * The library never prints, exits or aborts, and has no global state. The floating-point
- * environment is the caller's: under another rounding mode or flush-to-zero the answers may differ
- * between modes, but every kind still equals "linear" in that mode. Its exceptions must not trap:
- * infinities and NaN are used as values.
+ * The library never prints, exits or aborts, and has no global state. The host's locale has no say:
+ * numbers are read and written as in the C locale.
+ *
+ * Floating point: accel_build, accel_validate and what the queries of a lazy structure build run in
+ * the default environment (to nearest, nothing flushed to zero, no traps), whatever the caller's,
+ * which is restored with its flags. So a scene and a config make the same structure in every mode,
+ * and it is sound in every mode. The other functions run in the caller's environment: under another
+ * rounding mode or flush-to-zero answers may differ from those of another mode, but every kind
+ * still equals "linear" in that mode. Exceptions must not trap there: infinities and NaN are used
+ * as values.
+ *
+ * A NULL where something has to be is told as an error where there is an accel_error or a status to
+ * tell it by. A query without a structure, ray, point or visitor is refused as a ray that is not
+ * valid: it finds nothing and is counted in accel_query.refused. What describes nothing says
+ * nothing: accel_padded_box returns false, accel_describe fills in zeros and "" as the kind. All
+ * other pointers must be valid; none of a structure that was freed is.
  */
 #ifndef ACCEL_H
 #define ACCEL_H
@@ -83,10 +95,12 @@ typedef enum accel_status {
     ACCEL_NO_MEMORY,    /* the allocator said no */
     ACCEL_TOO_LARGE,    /* over 2^32 - 2 primitives (2^24 - 2 with 32 bits), 2^32 - 1 references */
     ACCEL_CANCELLED,    /* the progress hook said stop */
-    ACCEL_BROKEN        /* accel_validate found a broken invariant: a bug in the library */
+    ACCEL_BROKEN /* accel_validate found what must not be: a bug in the library, or memory that
+                    was overwritten */
 } accel_status;
 
-/* One line: where, what was found, what is allowed, what happened. */
+/* One line of printable UTF-8: where, what was found, what is allowed, what happened. Of a config
+ * that is quoted, what is not printable is shown as '?'. */
 typedef struct accel_error {
     accel_status status;
     char text[500];
@@ -181,7 +195,8 @@ typedef enum accel_order {
 
 typedef struct accel_query accel_query;
 
-/* What an object's callback sees of one query, and where it reports its hits. */
+/* What an object's callback sees of one query, and where it reports its hits. It may be copied;
+ * copies end with the original, when the callback returns. */
 typedef struct accel_probe {
     const accel_ray *ray; /* the caller's ray */
     void *user;           /* accel_objects.user */
@@ -189,6 +204,7 @@ typedef struct accel_probe {
     uint32_t prim;        /* index of the object in its geometry */
     bool skip;            /* the ray leaves this object: leave out its crossing nearest to t = 0 */
     double limit;         /* a hit with t > limit cannot matter; one with t == limit may */
+    void *library;        /* the library's: how accel_report finds the query */
 } accel_probe;
 
 /* Tests one object: calls accel_report for each hit in the ray's interval, in any order. It may
@@ -250,7 +266,7 @@ typedef void accel_intersect(accel_probe *probe);
 /* Reports a hit of the probed object. Returns true if the hit counts for now: for a closest query
  * it is the best so far (the last for which it is true is the answer: keep what you need to shade
  * it), for others it is accepted. A t outside the ray's interval or NaN is ignored. Only inside
- * accel_intersect. */
+ * accel_intersect; to NULL nothing is reported. */
 ACCEL_API bool accel_report(accel_probe *probe, double t, double u, double v);
 
 /* Host objects: the library knows their boxes (copied) and asks back for the hits. */
@@ -282,18 +298,21 @@ typedef struct accel_scene {
 /* ----------------------------------------------------------------- build ---- */
 
 /* All hooks are optional; set what is not used to zero. Functions must return normally (no
- * exceptions, no longjmp). */
+ * exceptions, no longjmp), and run in the default floating-point environment while the library
+ * builds. */
 typedef struct accel_hooks {
     void *user; /* handed to both functions */
     /* Lua's allocator in one function: to == 0 frees and returns NULL; old == NULL allocates;
-     * otherwise resizes. Returns NULL if it cannot, leaving the old block alone. NULL: realloc.
+     * otherwise resizes. Returns NULL if it cannot, leaving the old block alone. Blocks are aligned
+     * as malloc's are. NULL: realloc.
      * Called from the thread that runs accel_build or accel_free; kept until accel_free. Of a
      * lazy structure called by queries too, from many threads at the same time: it must be
      * thread-safe, and may not query that structure. */
     void *(*resize)(void *user, void *old, size_t from, size_t to);
     /* Called about every 10 ms of a build, or once in each pass over the primitives of a large cell
      * where that takes longer (a tenth of a second at 2 million), with the name of the phase and
-     * its done part in 0..1; return false to cancel. Never called by queries. */
+     * its done part in 0..1, which never falls within a phase; the next phase, of another name,
+     * starts at 0 again. Return false to cancel. Never called by queries. */
     bool (*progress)(void *user, const char *phase, double done);
     /* First rays that will come, such as every so many-th of a camera, `pilot_count` of them; of
      * more than 256 every so many-th is taken. The kind "auto" counts what they, and rays that go
@@ -336,7 +355,8 @@ struct accel_query {
     uint64_t outside; /* raw hits before their object's padded box: see ACCEL_ORDER_RAW */
 };
 
-/* Finds the nearest hit. Returns true and fills *hit, or returns false and leaves *hit alone.
+/* Finds the nearest hit. Returns true and fills *hit, which may be NULL, or returns false and
+ * leaves *hit alone.
  *
  * Example, a ray that follows mirrors and glass until it leaves the scene of balls from above
  * (ray.dir has length 1); returns how often it was reflected or refracted:
@@ -412,7 +432,8 @@ typedef struct accel_kind_info {
     size_t option_count;
 } accel_kind_info;
 
-/* The kinds compiled into this library, `*count` of them: the table that the parser uses. */
+/* The kinds compiled into this library, `*count` of them, then a NULL: the table that the parser
+ * uses. `count` may be NULL. */
 ACCEL_API const accel_kind_info *const *accel_kinds(size_t *count);
 
 enum { ACCEL_INFO_PHASES = 8, ACCEL_INFO_IDS = 10, ACCEL_INFO_NOTES = 12, ACCEL_INFO_LEFT_OUT = 8 };
@@ -420,7 +441,8 @@ enum { ACCEL_INFO_PHASES = 8, ACCEL_INFO_IDS = 10, ACCEL_INFO_NOTES = 12, ACCEL_
 /* What was built. Strings live as long as the structure. */
 typedef struct accel_info {
     const char *kind;
-    char config[256]; /* the resolved config: every option with its value; builds the same again */
+    char config[256]; /* the resolved config: every option with its value, `auto` where the builder
+                         decides; builds the same again, in every locale and rounding mode */
     uint64_t primitives;                  /* in the scene, skipped ones included */
     uint64_t skipped;                     /* invalid: see accel_build */
     uint64_t degenerate;                  /* triangles that no ray can hit, left out */
@@ -465,10 +487,19 @@ ACCEL_API bool accel_padded_box(const accel *a, accel_id id, accel_box *box);
 
 /* Walks the whole structure and checks every invariant that the exactness proof needs: every
  * primitive is in every cell that its box meets, boxes contain what is below them, indices are in
- * range, depth is within its cap; of a lazy structure as much as is built, and the lists of what
- * is not. Takes about the time of a build. Others may query meanwhile.
- * Returns ACCEL_OK; ACCEL_BROKEN with the first violation in *error (which may be NULL); or
- * ACCEL_NO_MEMORY if malloc, which it uses whatever the hooks are, has none for its marks. */
+ * range, depth is within its cap, the copied primitives and their boxes are as they were copied; of
+ * a lazy structure as much as is built, and the lists of what is not. Takes about the time of a
+ * build. Others may query meanwhile.
+ *
+ * It is made for structures whose memory was overwritten: whatever it finds in the blocks that the
+ * build or queries allocated, it ends, and it neither reads nor writes elsewhere (`a` itself must
+ * still be what accel_build gave). A change of one word that could change an answer is always
+ * found; of larger ones one in 2^64 may not be. A sound structure is sound in every floating-point
+ * mode, locale and thread.
+ *
+ * Returns ACCEL_OK; ACCEL_BROKEN with the first violation in *error (which may be NULL);
+ * ACCEL_NO_MEMORY if malloc, which it uses whatever the hooks are, has none for its marks; or
+ * ACCEL_BAD_ARGUMENT if `a` is NULL. */
 ACCEL_API accel_status accel_validate(const accel *a, accel_error *error);
 
 #ifdef __cplusplus

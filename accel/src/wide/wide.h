@@ -20,8 +20,6 @@
 #ifndef ACCEL_WIDE_H
 #define ACCEL_WIDE_H
 
-#include <fenv.h>
-
 #include "../kind.h"
 #include "../query.h"
 
@@ -66,18 +64,15 @@ struct wide {
     unsigned char *base; /* the nodes and leaves, aligned to 64 */
     void *memory;        /* the block around it */
     size_t bytes;        /* of that block */
+    size_t used;         /* bytes of nodes and leaves */
     uint32_t root;       /* a word */
     double scale;        /* scaled coordinates are the scene's times this, a power of two */
     bool fast;           /* coordinates are such that no edge function overflows: see wide_leaf.h */
     uint32_t depth;      /* levels of nodes */
     uint64_t nodes, leaves, blocks;
     const struct wide_isa *isa;
-    fenv_t environment; /* in which it was built, and padded boxes are made again */
-    uint32_t mode;      /* of it: see wide_mode */
+    uint64_t seal; /* of the nodes and leaves: see seal.h */
 };
-
-/* What of the floating-point environment decides the bits of a sum. */
-uint32_t wide_mode(void);
 
 static inline const struct wide_node *wide_node_at(const struct wide *w, uint32_t word)
 {
@@ -117,8 +112,8 @@ static inline const uint32_t *wide_block_ids(const struct wide_block *b)
 /* The vertices of the i-th triangle of a block: 9 doubles, as primitives keep them. */
 void wide_vertices(const struct wide_block *b, unsigned i, double out[9]);
 
-/* P' of the i-th triangle of a block, as the build made it in its mode. */
-accel_box wide_triangle_box(const struct wide *w, const struct wide_block *b, unsigned i);
+/* P' of the i-th triangle of a block, with the bits that the build gave it. */
+accel_box wide_triangle_box(const struct wide_block *b, unsigned i);
 
 /* P' of a triangle by its id: false if no leaf holds it. Goes through the whole tree. */
 bool wide_find_box(const struct wide *w, uint32_t id, accel_box *box);

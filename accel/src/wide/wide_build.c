@@ -72,8 +72,6 @@ bool wide_build(struct build *build, struct wide *w, const struct wide_isa *isa,
     struct wide_binary_tree tree = {.count = (uint32_t)p->bounded.count, .clusters = clusters};
     double largest;
     w->isa = isa;
-    w->mode = wide_mode();
-    fegetenv(&w->environment);
     w->scale = scale_of(&p->bounds, &largest);
     w->fast = largest <= FAST_COORDINATE;
     build_phase(build, "tree");

@@ -8,6 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../seal.h"
+
 /* Vertices that a block's triangles may share, and bytes behind the last block: loads of full
  * registers end there at the latest. */
 enum { POOL = 16, TAIL = 256 };
@@ -47,6 +49,7 @@ static size_t aligned(size_t size, size_t to)
 static void end_block(struct emitter *e, struct wide_block *b, size_t size)
 {
     b->size = (uint32_t)aligned(sizeof *b + size, 16);
+    memset((unsigned char *)(b + 1) + size, 0, b->size - sizeof *b - size);
     e->used += b->size;
     e->w->blocks++;
 }
@@ -133,7 +136,7 @@ static void put_pool(struct emitter *e, struct wide_block *b, const struct pool 
 /* As many of the triangles as have room in one block with a pool. Returns how many. */
 static uint32_t emit_pool(struct emitter *e, const uint32_t *ids, uint32_t count)
 {
-    struct pool p = {.count = 0};
+    struct pool p = {.count = 0, .corner = {{0}}};
     struct wide_block *b = begin_block(e, WIDE_POOL);
     while (b->count < count && b->count < WIDE_BLOCK) {
         const double *v = triangle(e, ids[b->count]);
@@ -289,8 +292,9 @@ static bool emit(struct emitter *e, uint32_t place, uint32_t depth, uint32_t *wo
     collect(e, place + 1, top->left_of_all, &c);
     collect(e, top->right, WIDE - top->left_of_all, &c);
     sort_children(e, &c);
-    e->used = aligned(e->used, 64);
-    const size_t at = e->used;
+    const size_t at = aligned(e->used, 64);
+    memset(e->w->base + e->used, 0, at - e->used);
+    e->used = at;
     struct wide_node *node = (struct wide_node *)(e->w->base + at);
     fill_node(e, node, &c);
     e->used += sizeof *node;
@@ -359,5 +363,7 @@ bool wide_emit(struct build *build, struct wide *w, struct wide_rule rule,
     if (!allocate(&e, room_for(&e, 0) + TAIL) || !emit(&e, 0, 0, &w->root))
         return false;
     trim(&e);
+    w->used = e.used;
+    w->seal = seal_bytes(w->base, w->used);
     return true;
 }

@@ -36,7 +36,7 @@ bool wide_test_slowly(struct wide_fast *f, const struct wide_block *b, unsigned 
     wide_vertices(b, i, vertices);
     if (!triangle_hit(&f->q, vertices, &t, &u, &v) || isnan(t))
         return false;
-    const accel_box box = wide_triangle_box(f->a->fast, b, i);
+    const accel_box box = wide_triangle_box(b, i);
     const struct interval s = query_box(&f->q, &box);
     if (!(s.a <= s.z))
         return false;

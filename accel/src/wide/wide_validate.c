@@ -7,6 +7,7 @@
 #include <stdlib.h>
 
 #include "../box.h"
+#include "../seal.h"
 
 /* What is the same for all nodes. */
 struct checker {
@@ -16,7 +17,7 @@ struct checker {
     uint8_t *seen;   /* by id: in a leaf */
     uint64_t nodes;  /* visited so far */
     uint64_t found;  /* primitives so far */
-    size_t end;      /* bytes of nodes and leaves at most */
+    uint64_t sum;    /* over the vertices so far: see seal.h */
 };
 
 static bool broken(const struct checker *c, const char *what, uint64_t number)
@@ -27,7 +28,7 @@ static bool broken(const struct checker *c, const char *what, uint64_t number)
 
 static accel_box padded_box(const struct checker *c, const struct wide_block *b, unsigned i)
 {
-    return b->type == WIDE_LIST ? c->a->prims.box[wide_block_ids(b)[i]] : wide_triangle_box(c->w, b, i);
+    return b->type == WIDE_LIST ? c->a->prims.box[wide_block_ids(b)[i]] : wide_triangle_box(b, i);
 }
 
 /* P', scaled, lies in the box. */
@@ -44,7 +45,7 @@ static bool holds(const struct checker *c, const float lo[3], const float hi[3],
 static bool check_block(struct checker *c, size_t at, const float lo[3], const float hi[3])
 {
     const struct wide_block *b = (const struct wide_block *)(c->w->base + at);
-    if (b->count == 0 || b->count > WIDE_BLOCK || b->type > WIDE_LIST || b->size > c->end - at)
+    if (b->count == 0 || b->count > WIDE_BLOCK || b->type > WIDE_LIST || b->size > c->w->used - at)
         return broken(c, "no block, or a broken one, at byte", at);
     for (unsigned i = 0; i < b->count; i++) {
         const uint32_t id = wide_block_ids(b)[i];
@@ -53,6 +54,11 @@ static bool check_block(struct checker *c, size_t at, const float lo[3], const f
         if (!holds(c, lo, hi, b, i))
             return broken(c, "a leaf's box does not hold primitive", id);
         c->found++;
+        if (b->type != WIDE_LIST) {
+            double vertices[9];
+            wide_vertices(b, i, vertices);
+            c->sum += seal_primitive(id, vertices, 9);
+        }
     }
     return true;
 }
@@ -61,7 +67,7 @@ static bool check_leaf(struct checker *c, uint32_t word, const float lo[3], cons
 {
     size_t at = 16 * (size_t)(word & ~WIDE_LEAF);
     for (;;) {
-        if (at + sizeof(struct wide_block) > c->end)
+        if (at + sizeof(struct wide_block) > c->w->used)
             return broken(c, "a leaf begins behind the end, at byte", at);
         if (!check_block(c, at, lo, hi))
             return false;
@@ -77,7 +83,7 @@ static bool check(struct checker *c, uint32_t word, const float lo[3], const flo
 {
     if (word & WIDE_LEAF)
         return check_leaf(c, word, lo, hi);
-    if (depth >= c->w->depth || 16 * (size_t)word + sizeof(struct wide_node) > c->end || word % 4 != 0)
+    if (depth >= c->w->depth || 16 * (size_t)word + sizeof(struct wide_node) > c->w->used || word % 4 != 0)
         return broken(c, "out of range or too deep, node", word);
     if (c->nodes++ == c->w->nodes)
         return broken(c, "more nodes than were made:", c->w->nodes);
@@ -99,19 +105,34 @@ static bool check(struct checker *c, uint32_t word, const float lo[3], const flo
     return true;
 }
 
-bool wide_validate(const accel *a, const struct wide *w, accel_error *error)
+/* Was nothing overwritten since it was built? Only then are all sizes and words what they say. */
+static bool check_seal(const struct checker *c)
+{
+    return seal_bytes(c->w->base, c->w->used) == c->w->seal ||
+           broken(c, "overwritten since they were built, bytes of nodes and leaves,", c->w->used);
+}
+
+static bool check_all(struct checker *c)
 {
     const float inf = (float)INFINITY;
     const float lo[3] = {-inf, -inf, -inf}, hi[3] = {inf, inf, inf};
-    struct checker c = {a, w, error, calloc(a->prims.count, 1), 0, 0,
-                        w->bytes - (size_t)(w->base - (unsigned char *)w->memory)};
+    if (!check_seal(c) || !check(c, c->w->root, lo, hi, 0))
+        return false;
+    if (c->nodes != c->w->nodes || c->found != c->a->prims.bounded.count)
+        return broken(c, "primitives are missing or nodes are left over; primitives found:",
+                      c->found);
+    return !c->a->fast || c->sum == c->a->prims.data_seal ||
+           broken(c, "other triangles than were copied; of them", c->found);
+}
+
+bool wide_validate(const accel *a, const struct wide *w, accel_error *error)
+{
+    struct checker c = {a, w, error, calloc(a->prims.count, 1), 0, 0, 0};
     if (!c.seen) {
         error_set(error, ACCEL_NO_MEMORY, "validate: no memory for %u ids", a->prims.count);
         return false;
     }
-    bool fine = check(&c, w->root, lo, hi, 0);
-    if (fine && (c.nodes != w->nodes || c.found != a->prims.bounded.count))
-        fine = broken(&c, "primitives are missing or nodes are left over; primitives found:", c.found);
+    const bool fine = check_all(&c);
     free(c.seen);
     return fine;
 }

@@ -12,6 +12,7 @@
 #endif
 
 #include "../box.h"
+#include "../environment.h"
 #include "../triangle.h"
 
 void wide_vertices(const struct wide_block *b, unsigned i, double out[9])
@@ -33,12 +34,13 @@ void wide_vertices(const struct wide_block *b, unsigned i, double out[9])
     }
 }
 
-uint32_t wide_mode(void)
+/* Is the environment one in which sums have the bits that they have in the default one? */
+static bool is_plain(void)
 {
 #if defined(__SSE2__)
-    return _mm_getcsr() & 0xe040; /* rounding, flushing results, flushing operands */
+    return (_mm_getcsr() & 0xe040) == 0; /* rounding, flushing results, flushing operands */
 #else
-    return (uint32_t)fegetround();
+    return false;
 #endif
 }
 
@@ -51,29 +53,27 @@ __attribute__((noinline)) static void make_box(const double *vertices, accel_box
     *out = box_padded(&box);
 }
 
-accel_box wide_triangle_box(const struct wide *w, const struct wide_block *b, unsigned i)
+accel_box wide_triangle_box(const struct wide_block *b, unsigned i)
 {
     double vertices[9];
     accel_box box;
     wide_vertices(b, i, vertices);
-    if (wide_mode() == w->mode) {
+    if (is_plain()) {
         make_box(vertices, &box);
         return box;
     }
-    fenv_t kept;
-    fegetenv(&kept);
-    fesetenv(&w->environment);
+    const fenv_t callers = environment_enter();
     make_box(vertices, &box);
-    fesetenv(&kept);
+    environment_leave(&callers);
     return box;
 }
 
-static bool find_in_leaf(const struct wide *w, const struct wide_block *b, uint32_t id, accel_box *box)
+static bool find_in_leaf(const struct wide_block *b, uint32_t id, accel_box *box)
 {
     for (;; b = wide_next_block(b)) {
         for (unsigned i = 0; i < b->count; i++) {
             if (wide_block_ids(b)[i] == id) {
-                *box = wide_triangle_box(w, b, i);
+                *box = wide_triangle_box(b, i);
                 return true;
             }
         }
@@ -85,7 +85,7 @@ static bool find_in_leaf(const struct wide *w, const struct wide_block *b, uint3
 static bool find_below(const struct wide *w, uint32_t word, uint32_t id, accel_box *box)
 {
     if (word & WIDE_LEAF)
-        return find_in_leaf(w, wide_leaf_at(w, word), id, box);
+        return find_in_leaf(wide_leaf_at(w, word), id, box);
     const struct wide_node *node = wide_node_at(w, word);
     for (int i = 0; i < WIDE && node->plane[0][0][i] <= node->plane[0][1][i]; i++)
         if (find_below(w, node->child[i], id, box))
@@ -98,7 +98,7 @@ bool wide_find_box(const struct wide *w, uint32_t id, accel_box *box)
     return find_below(w, w->root, id, box);
 }
 
-static void test_triangle(const struct wide *w, struct query *q, const struct wide_block *b,
+static void test_triangle(struct query *q, const struct wide_block *b,
                           unsigned i)
 {
     const uint32_t id = wide_block_ids(b)[i];
@@ -109,7 +109,7 @@ static void test_triangle(const struct wide *w, struct query *q, const struct wi
     wide_vertices(b, i, vertices);
     if (!q->point && !triangle_hit(q, vertices, &t, &u, &v))
         return;
-    const accel_box box = wide_triangle_box(w, b, i);
+    const accel_box box = wide_triangle_box(b, i);
     if (q->point)
         query_offer_point(q, &box, id);
     else
@@ -123,7 +123,7 @@ void wide_test_leaf(const struct wide *w, struct query *q, uint32_t word)
         if (b->type == WIDE_LIST)
             query_test_list(q, wide_block_ids(b), b->count);
         for (unsigned i = 0; i < b->count && b->type != WIDE_LIST && !query_done(q); i++)
-            test_triangle(w, q, b, i);
+            test_triangle(q, b, i);
         if (b->last || query_done(q))
             return;
     }
