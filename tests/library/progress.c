@@ -86,7 +86,7 @@ static void watch_build(const struct test_scene *s, const char *name, const char
 static const char *const more[] = {
     "hug:connectivity=0", "hug:form=paper",     "hug:form=paper,connectivity=0",
     "hug:density=30",     "hoo:connectivity=0", "octree:leaf=1",
-    "octree:depth=8",     "bvh:leaf=1",         "bsp:leaf=1",
+    "octree:depth=8",     "bvh:isa=portable",  "bsp:leaf=1",
     "grid:density=9",
 };
 

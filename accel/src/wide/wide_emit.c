@@ -93,14 +93,14 @@ static void bound(struct wide_block *b, const double *v)
 }
 
 /* Corners of a block's triangles, each vertex once. */
-struct pool {
+struct vertex_pool {
     float at[POOL][3];
     uint32_t count;
     uint8_t corner[3][WIDE_BLOCK];
 };
 
 /* Adds a triangle; false: the pool is full. */
-static bool pool_add(struct pool *p, const double *v, uint32_t triangle)
+static bool pool_add(struct vertex_pool *p, const double *v, uint32_t triangle)
 {
     const uint32_t before = p->count;
     for (int i = 0; i < 3; i++) {
@@ -119,7 +119,7 @@ static bool pool_add(struct pool *p, const double *v, uint32_t triangle)
     return true;
 }
 
-static void put_pool(struct emitter *e, struct wide_block *b, const struct pool *p,
+static void put_pool(struct emitter *e, struct wide_block *b, const struct vertex_pool *p,
                      const uint32_t *ids)
 {
     unsigned char *at = (unsigned char *)(b + 1);
@@ -136,7 +136,7 @@ static void put_pool(struct emitter *e, struct wide_block *b, const struct pool 
 /* As many of the triangles as have room in one block with a pool. Returns how many. */
 static uint32_t emit_pool(struct emitter *e, const uint32_t *ids, uint32_t count)
 {
-    struct pool p = {.count = 0, .corner = {{0}}};
+    struct vertex_pool p = {.count = 0, .corner = {{0}}};
     struct wide_block *b = begin_block(e, WIDE_POOL);
     while (b->count < count && b->count < WIDE_BLOCK) {
         const double *v = triangle(e, ids[b->count]);

@@ -201,7 +201,7 @@ static enum wide_answer closest(const accel *a, const struct wide *w, const acce
     if (answer == WIDE_ANY_OTHER_WAY)
         return answer;
     end_fast(&f, counters);
-    if (answer == WIDE_HIT) {
+    if (answer == WIDE_HIT && hit) {
         const accel_id name = primitives_name(&a->prims, f.id);
         *hit = (accel_hit){f.best, f.u, f.v, name.geom, name.prim};
     }
