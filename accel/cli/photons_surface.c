@@ -25,12 +25,11 @@ static void sphere_at(accel_surface *out, const double *sphere, const accel_ray 
     vector_subtract(out->normal, on_ray, sphere);
     vector_normalize(out->normal);
     vector_add_scaled(out->at, sphere, sphere[3], out->normal);
-    out->inside = vector_dot(out->normal, ray->dir) > 0.0 ? sphere[3] : 0.0;
 }
 
 accel_surface accel_surface_at(const accel_scene *scene, const accel_ray *ray, const accel_hit *hit)
 {
-    accel_surface out = {.inside = 0.0};
+    accel_surface out;
     const accel_geometry *geometry = &scene->geometries[hit->geom];
     if (geometry->type == ACCEL_TRIANGLES) {
         triangle_at(&out, &geometry->triangles, hit);

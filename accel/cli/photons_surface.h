@@ -14,7 +14,6 @@
 typedef struct accel_surface {
     double at[3];
     double normal[3]; /* of length 1, on the side that the ray came from */
-    double inside;    /* the radius of the sphere that was hit from inside; 0 for all else */
 } accel_surface;
 
 accel_surface accel_surface_at(const accel_scene *scene, const accel_ray *ray,

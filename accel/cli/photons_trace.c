@@ -51,14 +51,12 @@ typedef struct shoot {
 /* A photon on its way. */
 typedef struct flight {
     accel_ray ray;
-    double inside; /* see accel_surface */
-    double cosine; /* of the ray to the surface that it left */
     uint32_t light, number;
 } flight;
 
 /* A direction by the cosine around the unit vector n. The basis is the one of Duff et al.,
- * "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017. Returns the cosine. */
-static double scatter(double dir[3], const double n[3], accel_random *random)
+ * "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017. */
+static void scatter(double dir[3], const double n[3], accel_random *random)
 {
     const double square = accel_random_unit(random);
     const double angle = 2.0 * acos(-1.0) * accel_random_unit(random);
@@ -71,7 +69,6 @@ static double scatter(double dir[3], const double n[3], accel_random *random)
     for (int k = 0; k < 3; k++) {
         dir[k] = x * s[k] + y * t[k] + z * n[k];
     }
-    return z;
 }
 
 static accel_random draw(const shoot *s, const flight *f, uint32_t bounce)
@@ -88,29 +85,8 @@ static void emit(const shoot *s, flight *f)
     vector_normalize(normal);
     vector_add_scaled(org, light->corner, accel_random_unit(&random), light->edge[0]);
     vector_add_scaled(org, org, accel_random_unit(&random), light->edge[1]);
-    f->cosine = scatter(dir, normal, &random);
+    scatter(dir, normal, &random);
     f->ray = accel_ray_from(org, dir);
-}
-
-/* The nearest hit. A ray within the sphere that it left skips that sphere like any other source,
- * but meets it again at the end of its chord: from the chord's middle on it counts. */
-static bool trace(const shoot *s, worker *w, const flight *f, accel_hit *hit)
-{
-    w->rays++;
-    bool found = accel_closest(s->a, &f->ray, hit, &w->query);
-    if (f->inside == 0.0) {
-        return found;
-    }
-    accel_ray far_half = f->ray;
-    far_half.skip = (accel_id){ACCEL_NONE, ACCEL_NONE};
-    far_half.tmin = f->inside * f->cosine;
-    far_half.tmax = found ? hit->t : (double)INFINITY;
-    accel_hit again;
-    if (accel_closest(s->a, &far_half, &again, &w->query)) {
-        *hit = again;
-        found = true;
-    }
-    return found;
 }
 
 static bool store(worker *w, const accel_photon *photon)
@@ -149,7 +125,8 @@ static void shoot_one(const shoot *s, worker *w, flight *f)
     emit(s, f);
     for (uint32_t bounce = 0;; bounce++) {
         accel_hit hit;
-        if (!trace(s, w, f, &hit)) {
+        w->rays++;
+        if (!accel_closest(s->a, &f->ray, &hit, &w->query)) {
             w->escaped++;
             return;
         }
@@ -164,8 +141,7 @@ static void shoot_one(const shoot *s, worker *w, flight *f)
             return;
         }
         double dir[3];
-        f->cosine = scatter(dir, surface.normal, &random);
-        f->inside = surface.inside;
+        scatter(dir, surface.normal, &random);
         f->ray = accel_ray_from(surface.at, dir);
         f->ray.skip = (accel_id){hit.geom, hit.prim};
     }
