@@ -3,7 +3,7 @@
 
 /* Holds the product of two doubles exactly, with room in the exponent for a product of three. */
 #if defined(__SIZEOF_FLOAT128__)
-typedef __float128 wide;
+__extension__ typedef __float128 wide;
 #elif LDBL_MANT_DIG >= 106 && LDBL_MAX_EXP >= 4096
 typedef long double wide;
 #else

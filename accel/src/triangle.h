@@ -10,7 +10,7 @@
  * 0, or the determinant is near the ends of double's range, everything is done again in a type
  * that holds the products exactly (`wide`).
  *
- * Needs: no contraction into fused multiply-add (-ffp-contract=off), which breaks the sharing.
+ * Needs: no contraction into fused multiply-add, which breaks the sharing: see contract.h.
  */
 #ifndef ACCEL_TRIANGLE_H
 #define ACCEL_TRIANGLE_H
