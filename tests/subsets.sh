@@ -34,8 +34,8 @@ for subset; do
     mkdir -p "$root/build"
     cmake -S "$root" -B "$build" -DCMAKE_BUILD_TYPE=Release -DACCEL_WERROR=ON \
         "-DACCEL_KINDS=$subset" >"$log" 2>&1 || { tail -n 20 "$log" && fail "cmake failed: $log"; }
-    targets=(accel_command agree test_unit_config test_choice test_left_out test_edges)
-    tests=(-R '^(unit_config|choice|left_out|edges|agree-(G7|R2)|command-(usage|bench))$')
+    targets=(accel_command agree test_config_strings test_choice test_left_out test_box_edges)
+    tests=(-R '^(config_strings|choice|left_out|box_edges|agree-(degenerate|surface-origins)|command-(usage|bench))$')
     if [ "$all" = 1 ]; then
         targets=(all)
         tests=(-L 'library|command')

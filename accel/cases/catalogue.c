@@ -6,16 +6,18 @@
 
 #define SCALED(name, factor)                                                                       \
     {                                                                                              \
-        "G3", name, "300 triangles, all coordinates times " #factor, make_scaled, factor, 2000, 0  \
+        "scales", name, "300 triangles, all coordinates times " #factor, make_scaled, factor,      \
+            2000, 0                                                                                \
     }
 #define SHIFTED(name, offset)                                                                      \
     {                                                                                              \
-        "G4", name, "300 triangles, " #offset " off the origin", make_shifted, offset, 2000, 0     \
+        "offsets", name, "300 triangles, " #offset " off the origin", make_shifted, offset, 2000,  \
+            0                                                                                      \
     }
 /* A ray at an edge of a pile redoes every copy in 113 bits. */
 #define COPIES(name, count)                                                                        \
     {                                                                                              \
-        "G8", name, "one triangle, " #count " times", make_coincident, count,                      \
+        "coincident", name, "one triangle, " #count " times", make_coincident, count,              \
             (count) > 100000 ? 4                                                                   \
             : (count) > 1000 ? 12                                                                  \
                              : 200,                                                                \
@@ -23,15 +25,15 @@
     }
 #define SPLIT(name, count)                                                                         \
     {                                                                                              \
-        "G12", name, "a square, split at random into " #count " triangles", make_split_square,     \
+        "closed", name, "a square, split at random into " #count " triangles", make_split_square,  \
             count, (count) > 5000 ? 200 : 1000, 10                                                 \
     }
 
 const struct scene_maker scene_makers[] = {
-    {"G1", "soup", "1,000 triangles, edges 1e-3..1", make_soup, 1000, 5000, 0},
-    {"G1", "soup-20k", "20,000 triangles, edges 1e-3..1", make_soup, 20000, 5000, 0},
-    {"G1", "soup-100k", "100,000 triangles, edges 1e-3..1", make_soup, 100000, 5000, 0},
-    {"G2", "sizes", "1,000 triangles, edges 1e-12..1", make_log_sizes, 1000, 5000, 0},
+    {"random", "soup", "1,000 triangles, edges 1e-3..1", make_soup, 1000, 5000, 0},
+    {"random", "soup-20k", "20,000 triangles, edges 1e-3..1", make_soup, 20000, 5000, 0},
+    {"random", "soup-100k", "100,000 triangles, edges 1e-3..1", make_soup, 100000, 5000, 0},
+    {"sizes", "sizes", "1,000 triangles, edges 1e-12..1", make_log_sizes, 1000, 5000, 0},
     SCALED("scale-1e-310", 1e-310),
     SCALED("scale-1e-300", 1e-300),
     SCALED("scale-1e-150", 1e-150),
@@ -52,20 +54,20 @@ const struct scene_maker scene_makers[] = {
     SHIFTED("shift-1e9", 1e9),
     SHIFTED("shift-1e12", 1e12),
     SHIFTED("shift-1e15", 1e15),
-    {"G4", "shift-odd", "300 triangles at (148376, 1234, -223423)", make_shifted, 0, 2000, 0},
-    {"G5", "slivers", "500 needles and caps, aspect 1e-3..1e-14", make_slivers, 500, 5000, 0},
-    {"G6", "embree-387", "a skinny triangle at half a degree (embree 387)", make_skinny, 2000, 200,
-     0},
-    {"G6", "embree-416", "a box 120,000 high and 5.89e11 wide (embree 416)", make_slab, 5.89075e11,
+    {"offsets", "shift-odd", "300 triangles at (148376, 1234, -223423)", make_shifted, 0, 2000, 0},
+    {"slivers", "slivers", "500 needles and caps, aspect 1e-3..1e-14", make_slivers, 500, 5000, 0},
+    {"reported", "embree-387", "a skinny triangle at half a degree (embree 387)", make_skinny, 2000,
      200, 0},
-    {"G6", "embree-423", "edges of one mesh against another (embree 423)", make_collision, 3, 200,
-     0},
-    {"G6", "povray-fs324", "a closed pyramid, flat as 1 in 512 (POV-Ray FS324)", make_pyramid, 512,
+    {"reported", "embree-416", "a box 120,000 high and 5.89e11 wide (embree 416)", make_slab,
+     5.89075e11, 200, 0},
+    {"reported", "embree-423", "edges of one mesh against another (embree 423)", make_collision, 3,
      200, 0},
-    {"G6", "tinybvh-168", "a closed mesh of integer vertices (tinybvh 168)", make_quantised, 512,
-     200, 0},
-    {"G7", "degenerate", "points, segments, inverted boxes, NaN, zero radius", make_degenerate, 24,
-     20, 1000},
+    {"reported", "povray-fs324", "a closed pyramid, flat as 1 in 512 (POV-Ray FS324)", make_pyramid,
+     512, 200, 0},
+    {"reported", "tinybvh-168", "a closed mesh of integer vertices (tinybvh 168)", make_quantised,
+     512, 200, 0},
+    {"degenerate", "degenerate", "points, segments, inverted boxes, NaN, zero radius",
+     make_degenerate, 24, 20, 1000},
     COPIES("copies-1", 1),
     COPIES("copies-2", 2),
     COPIES("copies-255", 255),
@@ -76,12 +78,13 @@ const struct scene_maker scene_makers[] = {
     COPIES("copies-65535", 65535),
     COPIES("copies-65536", 65536),
     COPIES("copies-1000000", 1000000),
-    {"G9", "nested-spheres", "spheres of radius 2^-i, one centre", make_nested, 0, 1000, 0},
-    {"G9", "nested-boxes", "boxes of side 2^-i, one centre", make_nested, 1, 1000, 0},
-    {"G9", "nested-triangles", "triangles of size 2^-i, one centre", make_nested, 2, 1000, 0},
-    {"G10", "series", "triangles at 2^-i and 1 - 2^-i", make_series, 1000, 2000, 0},
-    {"G11", "lattice", "faces on the planes of an 8 x 8 x 8 lattice", make_lattice, 8, 20000, 0},
-    {"G12", "ball-mesh", "closed sphere of 2,048 triangles", make_ball_mesh, 4, 10000, 0},
+    {"nested", "nested-spheres", "spheres of radius 2^-i, one centre", make_nested, 0, 1000, 0},
+    {"nested", "nested-boxes", "boxes of side 2^-i, one centre", make_nested, 1, 1000, 0},
+    {"nested", "nested-triangles", "triangles of size 2^-i, one centre", make_nested, 2, 1000, 0},
+    {"series", "series", "triangles at 2^-i and 1 - 2^-i", make_series, 1000, 2000, 0},
+    {"lattice", "lattice", "faces on the planes of an 8 x 8 x 8 lattice", make_lattice, 8, 20000,
+     0},
+    {"closed", "ball-mesh", "closed sphere of 2,048 triangles", make_ball_mesh, 4, 10000, 0},
     SPLIT("split-4", 4),
     SPLIT("split-16", 16),
     SPLIT("split-64", 64),
@@ -90,23 +93,24 @@ const struct scene_maker scene_makers[] = {
     SPLIT("split-4096", 4096),
     SPLIT("split-16384", 16384),
     SPLIT("split-65536", 65536),
-    {"G12", "terrain", "a height field, 32 x 32", make_terrain, 32, 10000, 0},
-    {"G12", "fan", "closed double fans of 3..64", make_fan, 0, 200, 62},
-    {"G13", "stadium", "100,000 triangles in 1e-3 of a scene of 1e3", make_stadium, 6, 2000, 0},
-    {"G14", "huge-and-tiny", "spheres of 1e7 and 1e-6, boxes, infinite planes", make_huge_and_tiny,
-     0, 2000, 0},
-    {"G15", "stack", "coplanar squares, 0 or 1 ulp apart", make_stack, 8, 5000, 0},
-    {"G15", "twins", "a mesh twice, 0 or 1 ulp apart", make_twins, 0, 5000, 0},
-    {"G16", "empty", "no geometry", make_empty, 0, 20, 0},
-    {"G16", "hollow", "three geometries without primitives", make_empty, 3, 20, 0},
-    {"G16", "one-triangle", "one triangle", make_few, 1, 200, 0},
-    {"G16", "one-sphere", "one sphere", make_few, 11, 200, 0},
-    {"G16", "one-object", "one object", make_few, 21, 200, 0},
-    {"G16", "two-triangles", "two identical triangles", make_few, 2, 200, 0},
-    {"G16", "two-spheres", "two identical spheres", make_few, 12, 200, 0},
-    {"G16", "two-objects", "two identical objects", make_few, 22, 200, 0},
-    {"G16", "all-invalid", "nothing but invalid primitives", make_all_invalid, 0, 20, 0},
-    {"R6", "exotic", "objects with several roots, wrong ones, none", make_exotic, 200, 5000, 0},
+    {"closed", "terrain", "a height field, 32 x 32", make_terrain, 32, 10000, 0},
+    {"closed", "fan", "closed double fans of 3..64", make_fan, 0, 200, 62},
+    {"stadium", "stadium", "100,000 triangles in 1e-3 of a scene of 1e3", make_stadium, 6, 2000, 0},
+    {"huge-and-tiny", "huge-and-tiny", "spheres of 1e7 and 1e-6, boxes, infinite planes",
+     make_huge_and_tiny, 0, 2000, 0},
+    {"ties", "stack", "coplanar squares, 0 or 1 ulp apart", make_stack, 8, 5000, 0},
+    {"ties", "twins", "a mesh twice, 0 or 1 ulp apart", make_twins, 0, 5000, 0},
+    {"few", "empty", "no geometry", make_empty, 0, 20, 0},
+    {"few", "hollow", "three geometries without primitives", make_empty, 3, 20, 0},
+    {"few", "one-triangle", "one triangle", make_few, 1, 200, 0},
+    {"few", "one-sphere", "one sphere", make_few, 11, 200, 0},
+    {"few", "one-object", "one object", make_few, 21, 200, 0},
+    {"few", "two-triangles", "two identical triangles", make_few, 2, 200, 0},
+    {"few", "two-spheres", "two identical spheres", make_few, 12, 200, 0},
+    {"few", "two-objects", "two identical objects", make_few, 22, 200, 0},
+    {"few", "all-invalid", "nothing but invalid primitives", make_all_invalid, 0, 20, 0},
+    {"odd-objects", "exotic", "objects with several roots, wrong ones, none", make_exotic, 200,
+     5000, 0},
     {"mix", "mixed", "triangles, spheres and objects of all orders", make_mixed, 300, 5000, 0},
     {"mix", "mixed-key", "the same, all ordered by key", make_mixed, -300, 5000, 0},
     {NULL, NULL, NULL, NULL, 0, 0, 0},
@@ -139,4 +143,10 @@ uint64_t scaled_count(uint64_t count)
 {
     const double scaled = (double)count * test_intensity();
     return scaled < 1.0 ? 1 : (uint64_t)scaled;
+}
+
+bool takes_turn(uint64_t i)
+{
+    return i == 0 || floor((double)i * fmin(test_intensity(), 1.0)) >
+                         floor((double)(i - 1) * fmin(test_intensity(), 1.0));
 }

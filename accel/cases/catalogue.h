@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
  * The scenes and rays behind the stiff and extreme cases: each generator once, for the tests and
- * for reports. A scene belongs to a test "G1".."G16", a family of rays to "R1".."R6"; "mix" is the
+ * for reports. Scenes and families of rays belong to a test, such as "slivers"; "mix" is the
  * family that every scene is shot with: random, aimed at vertices and edges, axis-parallel with
  * both zeros, grazing.
  */
@@ -12,7 +12,7 @@
 #include "case_scene.h"
 
 struct scene_maker {
-    const char *test;    /* "G1" */
+    const char *test;    /* "slivers" */
     const char *name;    /* unique, one word */
     const char *meaning; /* one line */
     void (*make)(struct test_scene *s, struct dice *d, double param);
@@ -31,7 +31,7 @@ const struct scene_maker *scene_maker_find(const char *name);
 void scene_make(struct test_scene *s, const struct scene_maker *maker, uint64_t seed);
 
 struct ray_family {
-    const char *test;    /* "R1", or "mix" */
+    const char *test;    /* "special-rays", or "mix" */
     const char *name;    /* unique, one word */
     const char *meaning; /* one line */
     /* The i-th ray. `judge` is a linear structure over the scene. */
@@ -49,6 +49,9 @@ double test_intensity(void);
 
 /* count * intensity, at least 1. */
 uint64_t scaled_count(uint64_t count);
+
+/* Is the i-th of many tried? Below intensity 1 only that share of them is, the first in any case. */
+bool takes_turn(uint64_t i);
 
 /* The generators, by file. */
 typedef void make_scene(struct test_scene *s, struct dice *d, double param);

@@ -58,7 +58,7 @@ static int run(int argc, char **argv)
         return print_overview();
     }
     if (strcmp(argv[1], "--version") == 0) {
-        printf("accel " ACCEL_VERSION "\n");
+        printf("accel %s\n", accel_version());
         return ACCEL_EXIT_FINE;
     }
     for (size_t i = 0; i < COMMANDS; i++) {

@@ -12,53 +12,54 @@ static const struct topic {
     const char *test, *title;
     const char *told; /* with its source */
 } topics[] = {
-    {"G2", "sizes from 1e-12 to 1",
+    {"sizes", "sizes from 1e-12 to 1",
      "tinybvh's double BVH drops triangles whose determinant is below 1e-7: with a direction of "
      "length 1 those with edges below about 3e-4 (tiny_bvh.h:8183)"},
-    {"G3", "scales",
+    {"scales", "scales",
      "POV-Ray: a triangle nearer than 1e-6 or farther than 1e7 is a miss "
      "(shape/mesh.cpp:1059)"},
-    {"G4", "far from the origin",
+    {"offsets", "far from the origin",
      "false hits at huge coordinates (embree#416); POV-Ray's boxes and box rays are float "
      "(bounding/boundingbox.h:83)"},
-    {"G5", "slivers, grazing rays",
+    {"slivers", "slivers, grazing rays",
      "a hit at t = 12,291 on a triangle whose corners are all nearer than 600 (embree#387)"},
-    {"G6", "rays on which others failed",
+    {"reported", "rays on which others failed",
      "reported by users of pbrt-v4, of Vulkan's conformance tests, of Oblikovati; the rest of this "
      "test is among the slivers"},
-    {"G7", "degenerate and invalid primitives",
+    {"degenerate", "degenerate and invalid primitives",
      "Embree skips them silently (rtcCommitScene.md:43); NaN in a BVH: endless loop "
      "(devil_ray#62)"},
-    {"G8", "coincident primitives",
+    {"coincident", "coincident primitives",
      "recursion until the stack or 34 GB are gone (jbehley/octree#6, mlpack#4020); 256 copies "
      "overflow a count (pbrt-v2#33)"},
-    {"G9", "one centre, nested", "same centroids blow up builders (hoverinc#81, pbrt-v3#182)"},
-    {"G10", "geometric series",
+    {"nested", "one centre, nested", "same centroids blow up builders (hoverinc#81, pbrt-v3#182)"},
+    {"series", "geometric series",
      "a tree 256 deep on a stack of 64 (tinybvh PR#192; madmann91/bvh#108)"},
-    {"G11", "faces on planes of a lattice",
+    {"lattice", "faces on planes of a lattice",
      "-0.0 picks the wrong octant (tinybvh PR#282); 0 times infinity on a box's face "
      "(NVIDIA/warp#1530)"},
-    {"G12", "closed meshes and fans",
+    {"closed", "closed meshes and fans",
      "leaks at a vertex in robust mode, agreed (embree#174, #181)"},
-    {"G13", "a teapot in a stadium", "a uniform grid puts it all into one cell"},
-    {"G14", "huge and tiny, unbounded",
+    {"stadium", "a teapot in a stadium", "a uniform grid puts it all into one cell"},
+    {"huge-and-tiny", "huge and tiny, unbounded",
      "POV-Ray: beyond 1e7 nothing is hit, above 2e10 nothing is bounded (configcore.h:153)"},
-    {"G15", "ties",
+    {"ties", "ties",
      "POV-Ray: the first visited wins (bounding/boundingbox.cpp:473); OptiX: ids at "
      "shared edges vary from run to run (forum 110450)"},
-    {"G16", "nothing, one, two of the same", "empty scenes crash builders (tinybvh#111, #274)"},
-    {"R1", "zeros, subnormal, huge, infinite, NaN",
+    {"few", "nothing, one, two of the same", "empty scenes crash builders (tinybvh#111, #274)"},
+    {"special-rays", "zeros, subnormal, huge, infinite, NaN",
      "POV-Ray's BSP: an axis-parallel ray in a splitting plane ends the walk "
      "(bounding/bsptree.cpp:132)"},
-    {"R2", "origins on what is to be hit",
+    {"surface-origins", "origins on what is to be hit",
      "0 times infinity in the slab test (madmann91/bvh#9, #20)"},
-    {"R3", "interval ends at a hit",
+    {"interval-ends", "interval ends at a hit",
      "Embree: no guarantees at tnear and tfar (rtcIntersect1.md:57)"},
-    {"R4", "directions of any length", "Radiance takes a length below 1e-7 for 0 (raytrace.c:610)"},
-    {"R5", "rays that leave a hit",
+    {"direction-lengths", "directions of any length",
+     "Radiance takes a length below 1e-7 for 0 (raytrace.c:610)"},
+    {"secondary-rays", "rays that leave a hit",
      "self-hits and offsets against them (povray#121, mitsuba3 "
      "PR#1871)"},
-    {"R6", "host objects that report oddly", "outside what Embree and POV-Ray promise"},
+    {"odd-objects", "host objects that report oddly", "outside what Embree and POV-Ray promise"},
     {"mix", "triangles, spheres, objects together", "-"},
 };
 

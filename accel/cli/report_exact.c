@@ -97,7 +97,7 @@ static accel_ray random_ray(const struct test_scene *s, const accel *judge, stru
     return ray_families->make(s, judge, d, 0);
 }
 
-static const struct ray_family random_rays = {"G1",       "random", "rays that aim at nothing",
+static const struct ray_family random_rays = {"random",   "random", "rays that aim at nothing",
                                               random_ray, 0,        NULL};
 
 /* The peers of a scene against the best of ours. */

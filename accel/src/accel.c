@@ -2,6 +2,7 @@
  *
  * The list of kinds, and the life of a structure: build, describe, validate, free.
  */
+#define _POSIX_C_SOURCE 200809L /* clock_gettime */
 #include "config.h"
 #include "box.h"
 #include "environment.h"
@@ -13,19 +14,27 @@
 #include <stdio.h>
 #include <string.h>
 
-/* kinds.h holds KIND(name) for each kind that is compiled in, linear first and auto last. A new
- * kind is its file and one line in accel/CMakeLists.txt, which makes kinds.h. */
-#define KIND(name) extern const struct accel_kind name##_kind;
-#include "kinds.h"
+/* A library of some kinds names a list of its own. */
+#ifndef ACCEL_KINDS_FILE
+#define ACCEL_KINDS_FILE "kinds.h"
+#endif
+
+#define KIND(name, parts) extern const struct accel_kind name##_kind;
+#include ACCEL_KINDS_FILE
 #undef KIND
 
-#define KIND(name) &name##_kind.info,
+#define KIND(name, parts) &name##_kind.info,
 const accel_kind_info *const kinds[] = {
-#include "kinds.h"
+#include ACCEL_KINDS_FILE
     NULL};
 #undef KIND
 
 _Static_assert(sizeof kinds / sizeof *kinds <= MAX_KINDS + 1, "raise MAX_KINDS in kind.h");
+
+const char *accel_version(void)
+{
+    return ACCEL_VERSION;
+}
 
 const accel_kind_info *const *accel_kinds(size_t *count)
 {
@@ -248,6 +257,11 @@ accel_status accel_build(accel **out, const accel_scene *scene, const char *conf
                          "build: hooks.pilot is NULL, but hooks.pilot_count is %zu; nothing was "
                          "built",
                          hooks->pilot_count);
+    if (!contract_kept())
+        return error_set(error, ACCEL_BROKEN,
+                         "build: this library was compiled so that products and sums are rounded "
+                         "together, which makes answers wrong; compile all of its files with "
+                         "-ffp-contract=off; nothing was built");
     const fenv_t callers = environment_enter();
     const accel_status status = build_scene(out, scene, config, hooks, error);
     environment_leave(&callers);

@@ -8,6 +8,7 @@
 #include <math.h>
 
 #include "accel/accel.h"
+#include "contract.h"
 
 /* Relative growth of a primitive's box: 2^-44. How far t may be off its exact value before it
  * leaves its own box; it never decides whether two kinds agree. */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
  * What a kind of structure is to the rest of the library: one static table of functions.
- * A new kind is one file that fills an `accel_kind`, and one line in accel/CMakeLists.txt.
+ * A new kind is one file that fills an `accel_kind`, and one line in kinds.h.
  */
 #ifndef ACCEL_KIND_H
 #define ACCEL_KIND_H

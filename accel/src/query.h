@@ -27,15 +27,8 @@
 
 #include <fenv.h>
 
-#include <float.h>
-
 #include "box.h"
 #include "primitives.h"
-
-/* The proofs need every operation rounded to double, once. */
-#if defined(__FAST_MATH__) || FLT_EVAL_METHOD != 0
-#error "accel needs IEEE double arithmetic: no -ffast-math, and SSE2 instead of x87 on 32-bit x86"
-#endif
 
 #define QUERY_GROWTH 0x1p-50
 

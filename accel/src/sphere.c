@@ -31,7 +31,7 @@
  */
 #include "sphere.h"
 
-#include "wide.h"
+#include "quad.h"
 
 /* With the squares of all lengths between these, no product below over- or underflows. */
 #define SAFE_MIN 0x1p-400
@@ -51,9 +51,9 @@ static bool safe(double square)
 }
 
 /* The root in double's precision of what may be beyond its range. */
-static wide wide_root(wide x)
+static quad wide_root(quad x)
 {
-    wide scale = 1;
+    quad scale = 1;
     for (; x > 0x1p1000; x *= 0x1p-1000)
         scale *= 0x1p500;
     for (; x > 0 && x < 0x1p-1000; x *= 0x1p1000)
@@ -64,18 +64,18 @@ static wide wide_root(wide x)
 /* The farther root, for a ray that grazes the sphere that it leaves. Nothing is out of range. */
 static int farther_wide(const struct query *q, const double *sphere, double *t)
 {
-    const wide r = sphere[3];
-    wide a = 0, b = 0, c = -r * r;
+    const quad r = sphere[3];
+    quad a = 0, b = 0, c = -r * r;
     for (int k = 0; k < 3; k++) {
-        const wide f = (wide)q->org[k] - sphere[k], dir = q->dir[k];
+        const quad f = (quad)q->org[k] - sphere[k], dir = q->dir[k];
         a += dir * dir;
         b -= f * dir;
         c += f * f;
     }
-    const wide square = b * b - a * c;
+    const quad square = b * b - a * c;
     if (!(square >= 0))
         return 0;
-    const wide side = wide_root(square);
+    const quad side = wide_root(square);
     *t = (double)((b > 0 ? b + side : b - side) / a);
     return 1;
 }

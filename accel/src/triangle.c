@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "triangle.h"
 
-#include "wide.h"
+#include "quad.h"
 
 /* Above SAFE_MIN the edge functions' sum and t's numerator have lost less than 2^-170 of themselves
  * to products that underflow; overflow makes them infinite or NaN. */
@@ -64,24 +64,24 @@ static bool tiny_missed(const struct sheared *s)
 
 /* A corner's distance along the ray in units of its direction: beyond double's range where the
  * direction is tiny, also of triangles that the ray hits within it. */
-static wide along(const struct query *q, const double *corner, double z)
+static quad along(const struct query *q, const double *corner, double z)
 {
     const int kz = q->axis[2];
-    return isfinite(z) ? (wide)z : (wide)(corner[kz] - q->org[kz]) / (wide)q->dir[kz];
+    return isfinite(z) ? (quad)z : (quad)(corner[kz] - q->org[kz]) / (quad)q->dir[kz];
 }
 
 /* The same with exact products. */
-static bool hit_wide(const struct query *q, const double *vertices, const struct sheared *s,
+static bool hit_quad(const struct query *q, const double *vertices, const struct sheared *s,
                      double *t, double *u, double *v)
 {
-    wide e[3], z[3];
+    quad e[3], z[3];
     for (int i = 0; i < 3; i++) {
         const int j = (i + 1) % 3, k = (i + 2) % 3;
-        e[i] = (wide)s->x[k] * s->y[j] - (wide)s->y[k] * s->x[j];
+        e[i] = (quad)s->x[k] * s->y[j] - (quad)s->y[k] * s->x[j];
     }
     if ((e[0] < 0 || e[1] < 0 || e[2] < 0) && (e[0] > 0 || e[1] > 0 || e[2] > 0))
         return false;
-    const wide det = e[0] + e[1] + e[2];
+    const quad det = e[0] + e[1] + e[2];
     if (!(det < 0 || det > 0))
         return false;
     for (int i = 0; i < 3; i++)
@@ -108,7 +108,7 @@ bool triangle_hit(const struct query *q, const double *vertices, double *t, doub
     const double det = e0 + e1 + e2;
     const double scaled = e0 * s.z[0] + e1 * s.z[1] + e2 * s.z[2];
     if (e0 == 0 || e1 == 0 || e2 == 0 || !safe(det) || !safe(scaled))
-        return !collapsed(&s) && !tiny_missed(&s) && hit_wide(q, vertices, &s, t, u, v);
+        return !collapsed(&s) && !tiny_missed(&s) && hit_quad(q, vertices, &s, t, u, v);
     *t = scaled / det;
     *u = e1 / det;
     *v = e2 / det;

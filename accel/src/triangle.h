@@ -8,9 +8,9 @@
  * compute the same numbers for it, so no ray slips between them. An edge function is a difference
  * of two products; rounding is monotone, so its sign is right wherever it is not 0. Where one is
  * 0, or the determinant is near the ends of double's range, everything is done again in a type
- * that holds the products exactly (`wide`).
+ * that holds the products exactly (`quad`).
  *
- * Needs: no contraction into fused multiply-add (-ffp-contract=off), which breaks the sharing.
+ * Needs: no contraction into fused multiply-add, which breaks the sharing: see contract.h.
  */
 #ifndef ACCEL_TRIANGLE_H
 #define ACCEL_TRIANGLE_H

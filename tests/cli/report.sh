@@ -30,7 +30,7 @@ PATH=$work/nowhere "$accel" report -o page >out 2>err || got=$?
     fail "without gnuplot it exits with $got and says $(cat err)"
 [ ! -e page ] || fail "without gnuplot it leaves a folder"
 
-timeout 300 "$accel" report -o page --minutes 0 --quiet >out 2>err || fail "report: $(cat err)"
+"$accel" report -o page --minutes 0 --quiet >out 2>err || fail "report: $(cat err)"
 says "0 wrong"
 [ "$(find . -maxdepth 1 -name 'page*' | wc -l)" = 1 ] || fail "a temporary folder is left"
 
@@ -45,7 +45,9 @@ done
 has cases.csv "test,case,scene,judge,contender,peer,rays,decided,wrong,decided_rounded,wrong_rounded,ns_per_ray,cost" "$((60 * forms))"
 awk -F, 'NR > 1 && $6 == 0 && ($9 != 0 || $7 == 0) { exit 1 }' page/cases.csv ||
     fail "an answer of ours is wrong in cases.csv, or none was judged"
-for test in G2 G3 G4 G5 G6 G7 G8 G9 G10 G11 G12 G13 G14 G15 G16 R1 R2 R3 R4 R5 R6; do
+for test in sizes scales offsets slivers reported degenerate coincident nested series lattice closed \
+    stadium huge-and-tiny ties few special-rays surface-origins interval-ends direction-lengths \
+    secondary-rays odd-objects; do
     for each in $kinds; do
         grep -qE "^$test,.*,$each,0," page/cases.csv || fail "$test is not asked of $each"
     done

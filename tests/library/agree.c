@@ -2,7 +2,7 @@
  *
  * Every kind, with its defaults and with each of its options, gives the answers of `linear`, bit
  * for bit: nearest, any, all hits in order, boxes at a point. One argument names the test, such
- * as G3 or R1.
+ * as scales or special-rays.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -191,10 +191,13 @@ static bool is_judge(const struct job *j, const char *config)
 }
 
 /* Does one option among many miss its turn? There are many variants of some scenes, and large ones
- * take long to build. */
-static bool is_spared(const struct job *j, size_t i)
+ * take long to build; below intensity 1 their forms take turns as well. */
+static bool is_spared(const struct job *j, size_t i, bool form)
 {
-    return (j->maker->variants || scene_size(&j->scene) > LARGE) && (i + j->seed) % SHARE != 0;
+    const bool large = scene_size(&j->scene) > LARGE;
+    if (form)
+        return large && !takes_turn(i + j->seed);
+    return (j->maker->variants || large) && (i + j->seed) % SHARE != 0;
 }
 
 /* Every kind and form sees every ray, the other options take turns: each sees a share of them. */
@@ -207,21 +210,28 @@ static void agree(const struct scene_maker *maker, const struct ray_family *fami
     prepare(&j);
     check_exempt(&j);
     for (size_t i = 0; i < tested; i++) {
-        if (list[i].form && !is_judge(&j, list[i].config))
+        const bool form = list[i].form && !is_judge(&j, list[i].config);
+        if (is_spared(&j, i, form))
+            continue;
+        if (form)
             agree_one(&j, &list[i], 0, 1);
-        else if (!is_spared(&j, i))
+        else
             agree_one(&j, &list[i], count < SHARE ? 0 : i % SHARE, count < SHARE ? 1 : SHARE);
     }
     finish(&j);
     free(list);
 }
 
+/* Below intensity 1 either the variants of a scene take turns or its rays are fewer. */
 static void test_scene(void **state)
 {
     const struct scene_maker *maker = *state;
     const uint32_t variants = maker->variants ? maker->variants : 1;
+    const uint64_t scaled = scaled_count(maker->rays);
+    const uint64_t rays = variants > 1 && scaled < maker->rays ? maker->rays : scaled;
     for (uint32_t i = 0; i < variants; i++)
-        agree(maker, ray_families, test_seed() + i, scaled_count(maker->rays));
+        if (takes_turn(i))
+            agree(maker, ray_families, test_seed() + i, rays);
 }
 
 static void test_family(void **state)
@@ -246,7 +256,7 @@ int main(int argc, char **argv)
     static struct CMUnitTest list[100];
     size_t count = 0;
     if (argc != 2) {
-        fprintf(stderr, "usage: agree G1..G16|R1..R6|mix|NAME of a scene or a family of rays\n");
+        fprintf(stderr, "usage: agree NAME of a test, a scene or a family of rays: see catalogue.h\n");
         return 2;
     }
     for (const struct scene_maker *m = scene_makers; m->name; m++)

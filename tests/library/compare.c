@@ -199,6 +199,15 @@ static void add_numbers(struct tested **list, size_t *count, const char *kind,
     }
 }
 
+static size_t keep_turns(struct tested *list, size_t count)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < count; i++)
+        if (list[i].form || takes_turn(i))
+            list[kept++] = list[i];
+    return kept;
+}
+
 size_t tested_configs(struct tested **list)
 {
     size_t kinds, count = 0;
@@ -215,7 +224,7 @@ size_t tested_configs(struct tested **list)
                 add_numbers(list, &count, kind[i]->name, o);
         }
     }
-    return count;
+    return keep_turns(*list, count);
 }
 
 bool kind_is_there(const char *name)

@@ -48,7 +48,8 @@ struct tested {
 };
 
 /* All kinds, each with its defaults, then with each word of each option, the ends of each range
- * and values between. Returns how many; the array is free()d by the caller. */
+ * and values between; below intensity 1, of those that are no forms only that share. Returns how
+ * many; the array is free()d by the caller. */
 size_t tested_configs(struct tested **list);
 
 /* Is a kind compiled into the library? */

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
  * The same input gives the same bits on every platform and with every compiler: a hash of all
- * answers on some scenes, stored here. `golden print` prints the table.
+ * answers on some scenes, stored here. `golden print` prints the table. The rays of a hash are
+ * always as many; below intensity 1 each kind but linear, and each form, takes its share of scenes.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -74,7 +75,7 @@ static void test_hashes(void **state)
     const size_t count = tested_configs(&list);
     for (size_t i = 0; i < sizeof table / sizeof *table; i++) {
         for (size_t k = 0; k < count; k++) {
-            if (!list[k].form)
+            if (!list[k].form || (k > 0 && !takes_turn(i + 7 * k)))
                 continue;
             const uint64_t hash = hash_answers(list[k].config, &table[i]);
             if (hash == table[i].hash)

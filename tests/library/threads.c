@@ -9,7 +9,7 @@
 #include "cmocka_all.h"
 #include "compare.h"
 
-enum { THREADS = 16, RAYS = 150 };
+enum { THREADS = 16 };
 
 /* One thread's work. */
 struct worker {
@@ -24,7 +24,7 @@ static uint64_t hash_answers(const accel *a, const struct test_scene *s)
 {
     struct dice d = dice_from(9, 9);
     uint64_t hash = HASH_START;
-    for (uint64_t i = 0; i < RAYS; i++) {
+    for (uint64_t i = 0; i < scaled_count(150); i++) {
         const accel_ray ray = ray_families->make(s, a, &d, i);
         const struct answer answer = ask(a, &ray, true);
         hash = answer_hash(hash, &answer);
@@ -137,14 +137,18 @@ struct crowd {
     uint64_t hash;  /* of the answers, in whatever order */
 };
 
-enum { CROWD_RAYS = 300 };
+static uint64_t crowd_rays(void)
+{
+    return scaled_count(300);
+}
 
 static void *join_crowd(void *user)
 {
     struct crowd *w = user;
+    const uint64_t count = crowd_rays();
     pthread_barrier_wait(w->start);
-    for (uint64_t i = 0; i < CROWD_RAYS; i++) {
-        const struct answer answer = ask(w->a, &w->rays[(w->first + i) % CROWD_RAYS], true);
+    for (uint64_t i = 0; i < count; i++) {
+        const struct answer answer = ask(w->a, &w->rays[(w->first + i) % count], true);
         w->hash += answer_hash(HASH_START, &answer);
     }
     return NULL;
@@ -219,18 +223,19 @@ static void test_grow_together(void **state)
         skip();
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
         struct test_scene s;
-        accel_ray rays[CROWD_RAYS];
+        accel_ray *rays = must_resize(NULL, crowd_rays() * sizeof *rays);
         scene_make(&s, scene_maker_find(scenes[i]), test_seed());
         accel *judge = must_build(&s, "linear");
         struct dice d = dice_from(test_seed(), 3);
         uint64_t expected = 0;
-        for (uint64_t r = 0; r < CROWD_RAYS; r++) {
+        for (uint64_t r = 0; r < crowd_rays(); r++) {
             rays[r] = ray_families->make(&s, judge, &d, r);
             const struct answer answer = ask(judge, &rays[r], true);
             expected += answer_hash(HASH_START, &answer);
         }
         for (size_t j = 0; j < sizeof configs / sizeof *configs; j++)
             grow_together(&s, configs[j], rays, expected);
+        free(rays);
         accel_free(judge);
         scene_free(&s);
     }

@@ -6,8 +6,8 @@
 # the same rays through the same triangles; compare_hits.awk says when they agree.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-root=$(cd "$here/../.." && pwd)
-build=$root/build
+# shellcheck source=tests/povray/common.sh
+. "$here/common.sh"
 
 usage() {
     cat <<'HELP'
@@ -85,6 +85,7 @@ fi
 [[ ${2:-96x64} =~ ^([1-9][0-9]*)x([1-9][0-9]*)$ ]] || fail "$2: not COLUMNSxROWS"
 columns=${BASH_REMATCH[1]} rows=${BASH_REMATCH[2]}
 choose "$1"
+[[ $scene != */* ]] || need "$scene"
 work=$build/tests/hits-$1
 mkdir -p "$work"
 provide_geometry "$1"

@@ -179,8 +179,21 @@ print_table() {
     echo "$total queries verified"
 }
 
+# The meshes that our own scenes include.
+need_meshes() {
+    local item scene mesh
+    for item in "${scenes[@]}"; do
+        scene=$(item_scene "$item")
+        [ "$(dirname "$scene")" = "$root/scenes" ] || continue
+        for mesh in $(sed -n 's/^ *#include "\(.*\)"$/\1/p' "$scene"); do
+            [ -e "$root/scenes/$mesh" ] || need "$build/scenes/$mesh"
+        done
+    done
+}
+
 parse_arguments "$@"
 need_binaries
+need_meshes
 out=$build/tests/images
 mkdir -p "$out"
 for item in "${scenes[@]}"; do

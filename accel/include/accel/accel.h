@@ -64,7 +64,15 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#define ACCEL_VERSION "0.1.0"
+/* Of this header; accel_version tells that of the library. While MAJOR is 0, each MINOR may break
+ * the one before. */
+#define ACCEL_VERSION_MAJOR 0
+#define ACCEL_VERSION_MINOR 1
+#define ACCEL_VERSION_PATCH 0
+#define ACCEL_VERSION_TEXT_(major, minor, patch) #major "." #minor "." #patch
+#define ACCEL_VERSION_TEXT(major, minor, patch)  ACCEL_VERSION_TEXT_(major, minor, patch)
+#define ACCEL_VERSION                                                                              \
+    ACCEL_VERSION_TEXT(ACCEL_VERSION_MAJOR, ACCEL_VERSION_MINOR, ACCEL_VERSION_PATCH)
 
 #if defined(__GNUC__)
 #define ACCEL_API __attribute__((visibility("default")))
@@ -75,6 +83,9 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
+
+/* The version of the library that is linked, such as "0.1.0". */
+ACCEL_API const char *accel_version(void);
 
 /* A built structure. Made by accel_build, ended by accel_free. */
 typedef struct accel accel;
@@ -95,8 +106,9 @@ typedef enum accel_status {
     ACCEL_NO_MEMORY,    /* the allocator said no */
     ACCEL_TOO_LARGE,    /* over 2^32 - 2 primitives (2^24 - 2 with 32 bits), 2^32 - 1 references */
     ACCEL_CANCELLED,    /* the progress hook said stop */
-    ACCEL_BROKEN /* accel_validate found what must not be: a bug in the library, or memory that
-                    was overwritten */
+    ACCEL_BROKEN        /* accel_validate found what must not be: a bug in the library, or memory that
+                         * was overwritten; accel_build found the library compiled so that answers
+                         * are wrong: see there */
 } accel_status;
 
 /* One line of printable UTF-8: where, what was found, what is allowed, what happened. Of a config
@@ -334,7 +346,9 @@ typedef struct accel_hooks {
  *
  * Returns ACCEL_OK and stores the structure in *out, which the caller ends with accel_free.
  * Otherwise returns why, sets *out to NULL, fills *error (which may be NULL) and holds nothing.
- * Errors: ACCEL_BAD_ARGUMENT, ACCEL_BAD_CONFIG, ACCEL_NO_MEMORY, ACCEL_TOO_LARGE, ACCEL_CANCELLED.
+ * Errors: ACCEL_BAD_ARGUMENT, ACCEL_BAD_CONFIG, ACCEL_NO_MEMORY, ACCEL_TOO_LARGE, ACCEL_CANCELLED;
+ * ACCEL_BROKEN of a library that was compiled with products and sums contracted into one rounding,
+ * as gcc does by hand with -march=native: -ffp-contract=off, which the CMake build sets, mends it.
  */
 ACCEL_API accel_status accel_build(accel **out, const accel_scene *scene, const char *config,
                                    const accel_hooks *hooks, accel_error *error);

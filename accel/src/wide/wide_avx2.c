@@ -6,6 +6,7 @@
 
 #include <immintrin.h>
 
+#include "../contract.h"
 #include "../kind.h"
 #include "../query.h"
 #include "wide_isa.h"
@@ -14,6 +15,7 @@
 #pragma clang attribute push(__attribute__((target("avx2,fma,bmi,lzcnt,popcnt"))), apply_to = function)
 #else
 #pragma GCC push_options
+#pragma GCC optimize("fp-contract=off") /* the fused operations of the set are there to tempt it */
 #pragma GCC target("avx2,fma,bmi,lzcnt,popcnt")
 #endif
 
@@ -143,7 +145,7 @@ static inline bool leaf_test(const struct leaf_ray *l, struct wide_fast *f,
 
 static bool works_here(void)
 {
-    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
+    return contract_kept() && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
            __builtin_cpu_supports("bmi");
 }
 

@@ -7,6 +7,7 @@
 
 #include <immintrin.h>
 
+#include "../contract.h"
 #include "../kind.h"
 #include "../query.h"
 #include "wide_isa.h"
@@ -17,6 +18,7 @@
 #pragma clang attribute push(__attribute__((target(FEATURES))), apply_to = function)
 #else
 #pragma GCC push_options
+#pragma GCC optimize("fp-contract=off") /* the fused operations of the set are there to tempt it */
 #pragma GCC target("avx512f,avx512vl,avx512dq,avx512bw,avx2,fma,bmi,lzcnt,popcnt")
 #endif
 
@@ -176,7 +178,7 @@ static inline bool leaf_test(const struct leaf_ray *l, struct wide_fast *f,
 
 static bool works_here(void)
 {
-    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+    return contract_kept() && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
            __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") &&
            __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi");
 }

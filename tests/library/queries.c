@@ -597,5 +597,5 @@ int main(void)
         cmocka_unit_test(test_limit),      cmocka_unit_test(test_nested),
         cmocka_unit_test(test_counters),
     };
-    return cmocka_run_group_tests_name("query", tests, make_list, free_list);
+    return cmocka_run_group_tests_name("queries", tests, make_list, free_list);
 }

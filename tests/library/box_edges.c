@@ -74,5 +74,5 @@ static void test_edges(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_edges)};
-    return cmocka_run_group_tests_name("edges", tests, NULL, NULL);
+    return cmocka_run_group_tests_name("box_edges", tests, NULL, NULL);
 }

@@ -413,5 +413,5 @@ int main(void)
         cmocka_unit_test(test_layouts),           cmocka_unit_test(test_sphere_stride),
         cmocka_unit_test(test_unbounded),
     };
-    return cmocka_run_group_tests_name("scene", tests, NULL, NULL);
+    return cmocka_run_group_tests_name("scene_input", tests, NULL, NULL);
 }

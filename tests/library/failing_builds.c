@@ -110,13 +110,12 @@ static bool build_failing(const struct test_scene *s, const char *config, struct
 
 static void fail_each(const struct test_scene *s, const char *config)
 {
-    enum { MOST = 150 };
     struct checker count = {.held = 0};
     accel *judge = must_build(s, "linear");
     const uint64_t expected = hash_answers(judge, s);
     accel_free(judge);
     assert_true(build_failing(s, config, &count, expected));
-    const uint64_t step = count.calls / MOST + 1;
+    const uint64_t step = count.calls / scaled_count(150) + 1;
     bool failed = false;
     for (uint64_t at = 1; at <= count.calls; at += step) {
         for (int on = 0; on < 2; on++) {
@@ -174,7 +173,6 @@ static void grow_failing(const struct test_scene *s, const char *config, struct 
 
 static void grow_failing_each(const struct test_scene *s, const char *config)
 {
-    enum { MOST = 150 };
     accel *judge = must_build(s, "linear");
     const uint64_t expected = hash_answers(judge, s);
     accel_free(judge);
@@ -182,7 +180,7 @@ static void grow_failing_each(const struct test_scene *s, const char *config)
     accel_info whole, now;
     grow_failing(s, config, &count, expected, &whole);
     assert_true(count.calls > 0 && whole.lazy_bytes > 0);
-    const uint64_t step = count.calls / MOST + 1;
+    const uint64_t step = count.calls / scaled_count(150) + 1;
     for (uint64_t at = 1; at <= count.calls; at += step) {
         for (int on = 0; on < 2; on++) {
             struct checker c = {.fail_at = at, .fail_on = on};
@@ -361,5 +359,5 @@ int main(void)
         cmocka_unit_test(test_cancel),
         cmocka_unit_test(test_silence),
     };
-    return cmocka_run_group_tests_name("fault", tests, NULL, NULL);
+    return cmocka_run_group_tests_name("failing_builds", tests, NULL, NULL);
 }

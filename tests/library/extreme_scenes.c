@@ -271,5 +271,5 @@ int main(void)
         cmocka_unit_test(test_stadium),   cmocka_unit_test(test_special),
         cmocka_unit_test(test_many),
     };
-    return cmocka_run_group_tests_name("limits", tests, NULL, NULL);
+    return cmocka_run_group_tests_name("extreme_scenes", tests, NULL, NULL);
 }

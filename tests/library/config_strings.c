@@ -335,5 +335,5 @@ int main(void)
         cmocka_unit_test(test_kinds),       cmocka_unit_test(test_hostile),
         cmocka_unit_test(test_description), cmocka_unit_test(test_info),
     };
-    return cmocka_run_group_tests_name("config", tests, open_scene, close_scene);
+    return cmocka_run_group_tests_name("config_strings", tests, open_scene, close_scene);
 }

@@ -11,7 +11,7 @@
 #include "compare.h"
 #include "modes.h"
 
-enum { RAYS = 120, TURNS = 8 };
+enum { TURNS = 8 };
 
 static void leave(const struct mode *m)
 {
@@ -20,8 +20,9 @@ static void leave(const struct mode *m)
 }
 
 struct rays {
-    accel_ray ray[RAYS];
-    struct answer answer[RAYS];
+    uint32_t count;
+    accel_ray *ray;
+    struct answer *answer;
 };
 
 /* Shoots in the mode; compares with what linear said in it, or notes that. */
@@ -30,7 +31,7 @@ static uint32_t shoot(const accel *a, const struct mode *m, struct rays *r, bool
 {
     uint32_t wrong = 0;
     mode_enter(m);
-    for (uint32_t i = 0; i < RAYS; i++) {
+    for (uint32_t i = 0; i < r->count; i++) {
         const struct answer found = ask(a, &r->ray[i], i % 4 == 0);
         if (judge)
             r->answer[i] = found;
@@ -76,10 +77,12 @@ static accel_ray huge_ray(const struct test_scene *s, struct dice *d)
 static void agree_in(const struct test_scene *s, const char *name, const struct mode *built,
                      const struct mode *walked, const struct tested *list, size_t count)
 {
-    static struct rays r;
+    struct rays r = {(uint32_t)scaled_count(120), NULL, NULL};
+    r.ray = must_resize(NULL, r.count * sizeof *r.ray);
+    r.answer = must_resize(NULL, r.count * sizeof *r.answer);
     struct dice d = dice_from(test_seed(), 11);
     accel *judge = build_in(built, s, "linear");
-    for (uint32_t i = 0; i < RAYS; i++)
+    for (uint32_t i = 0; i < r.count; i++)
         r.ray[i] = i % 8 == 6 ? huge_ray(s, &d) : ray_families[i % 4 == 3].make(s, judge, &d, i);
     uint32_t first = 0;
     shoot(judge, walked, &r, true, &first);
@@ -92,13 +95,15 @@ static void agree_in(const struct test_scene *s, const char *name, const struct 
         const uint32_t wrong = shoot(a, walked, &r, false, &first);
         accel_free(a);
         if (wrong > 0)
-            fail_msg("%s on %s, built rounding %s, walked rounding %s: %u of %d differ; ray %a %a "
+            fail_msg("%s on %s, built rounding %s, walked rounding %s: %u of %u differ; ray %a %a "
                      "%a  %a %a %a",
-                     list[i].config, name, built->name, walked->name, wrong, RAYS,
+                     list[i].config, name, built->name, walked->name, wrong, r.count,
                      r.ray[first].org[0], r.ray[first].org[1], r.ray[first].org[2],
                      r.ray[first].dir[0], r.ray[first].dir[1], r.ray[first].dir[2]);
     }
     accel_free(judge);
+    free(r.ray);
+    free(r.answer);
 }
 
 static void test_modes(void **state)
@@ -125,5 +130,5 @@ static void test_modes(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_modes)};
-    return cmocka_run_group_tests_name("floating", tests, NULL, NULL);
+    return cmocka_run_group_tests_name("rounding_modes", tests, NULL, NULL);
 }
