@@ -34,12 +34,12 @@
 
 /* A file under way. One at a time in a process; not to be moved in memory. */
 typedef struct accel_output {
-    const char *path;         /* as the user calls it */
-    FILE *file;               /* to write to */
-    int descriptor;           /* the same, for who needs to write in any order */
-    int trouble;              /* errno of the first write that failed, or 0 */
-    accel_place place;        /* where it goes in the end */
-    char temporary[PATH_MAX]; /* its name until then; none for a stream */
+    const char *path;                /* as the user calls it */
+    FILE *file;                      /* to write to */
+    int descriptor;                  /* the same, for who needs to write in any order */
+    int trouble;                     /* errno of the first write that failed, or 0 */
+    accel_place place;               /* where it goes in the end */
+    char temporary[ACCEL_MOST_PATH]; /* its name until then; none for a stream */
 } accel_output;
 
 /* Opens it, before anything long is computed. Otherwise fills error->text. */

@@ -28,7 +28,7 @@ static int own_descriptor(const char *path)
     static const char *const own[] = {"/proc/self/fd", "/proc/thread-self/fd"};
     const size_t length = folder_length(path);
     const char *number = path + length;
-    char folder[PATH_MAX] = ".", real[PATH_MAX], wanted[PATH_MAX];
+    char folder[ACCEL_MOST_PATH] = ".", real[ACCEL_MOST_PATH], wanted[ACCEL_MOST_PATH];
     if (*number == '\0' || strlen(number) > 9 || number[strspn(number, "0123456789")] != '\0') {
         return -1;
     }
@@ -44,10 +44,10 @@ static int own_descriptor(const char *path)
 }
 
 /* Puts what a link says in its place. */
-static bool put_link(char path[PATH_MAX], const char *link)
+static bool put_link(char path[ACCEL_MOST_PATH], const char *link)
 {
     const size_t kept = *link == '/' ? 0 : folder_length(path);
-    if (kept + strlen(link) >= PATH_MAX) {
+    if (kept + strlen(link) >= ACCEL_MOST_PATH) {
         errno = ENAMETOOLONG;
         return false;
     }
@@ -57,9 +57,9 @@ static bool put_link(char path[PATH_MAX], const char *link)
 
 /* Follows the links at the end of a path, also those that lead to nothing, up to a descriptor of
  * this process, whose number becomes *own. False: errno says why not. */
-static bool follow(char path[PATH_MAX], int *own)
+static bool follow(char path[ACCEL_MOST_PATH], int *own)
 {
-    char link[PATH_MAX];
+    char link[ACCEL_MOST_PATH];
     for (int i = 0; i < MOST_LINKS; i++) {
         *own = own_descriptor(path);
         const ssize_t length = *own >= 0 ? -1 : readlink(path, link, sizeof link - 1);
@@ -120,7 +120,7 @@ const char *accel_place_find(accel_place *place, const char *name)
     if (strcmp(name, "-") == 0) {
         return take_descriptor(place, STDOUT_FILENO);
     }
-    if (*name == '\0' || strlen(name) >= PATH_MAX) {
+    if (*name == '\0' || strlen(name) >= ACCEL_MOST_PATH) {
         return *name == '\0' ? "the name is empty" : strerror(ENAMETOOLONG);
     }
     /* the kernel first: it may forbid to follow a link that readlink can read */
@@ -178,15 +178,16 @@ static int make(char *name, bool folder, mode_t mode)
     return -1;
 }
 
-int accel_place_make(const accel_place *place, bool folder, char temporary[PATH_MAX])
+int accel_place_make(const accel_place *place, bool folder, char temporary[ACCEL_MOST_PATH])
 {
     const bool is_new = place->kind == ACCEL_PLACE_NEW;
     const size_t kept = folder_length(place->path);
-    const int length = place->kind == ACCEL_PLACE_FOLDER
-                           ? snprintf(temporary, PATH_MAX, "%s/unfinished.XXXXXX", place->path)
-                           : snprintf(temporary, PATH_MAX, "%.*s%.*s.XXXXXX", (int)kept,
-                                      place->path, LONGEST_BASE, place->path + kept);
-    if (length >= PATH_MAX) {
+    const int length =
+        place->kind == ACCEL_PLACE_FOLDER
+            ? snprintf(temporary, ACCEL_MOST_PATH, "%s/unfinished.XXXXXX", place->path)
+            : snprintf(temporary, ACCEL_MOST_PATH, "%.*s%.*s.XXXXXX", (int)kept, place->path,
+                       LONGEST_BASE, place->path + kept);
+    if (length >= ACCEL_MOST_PATH) {
         errno = ENAMETOOLONG;
         return -1;
     }
@@ -197,7 +198,7 @@ int accel_place_make(const accel_place *place, bool folder, char temporary[PATH_
         return made;
     }
     const char *elsewhere = getenv("TMPDIR");
-    snprintf(temporary, PATH_MAX, "%.4000s/accel.XXXXXX",
+    snprintf(temporary, ACCEL_MOST_PATH, "%.4000s/accel.XXXXXX",
              elsewhere == NULL || *elsewhere == '\0' ? "/tmp" : elsewhere);
     return make(temporary, folder, 0600);
 }

@@ -5,10 +5,12 @@
 #ifndef ACCEL_CLI_PLACE_H
 #define ACCEL_CLI_PLACE_H
 
-#include <limits.h>
 #include <stdbool.h>
 #include <stdint.h>
 #include <sys/stat.h>
+
+/* PATH_MAX of Linux, which C11 alone does not show. */
+enum { ACCEL_MOST_PATH = 4096 };
 
 /* What is there. */
 typedef enum accel_place_kind {
@@ -21,8 +23,8 @@ typedef enum accel_place_kind {
 /* Where a name leads. */
 typedef struct accel_place {
     accel_place_kind kind;
-    int descriptor;      /* of a stream, owned; otherwise -1 */
-    char path[PATH_MAX]; /* links followed */
+    int descriptor;             /* of a stream, owned; otherwise -1 */
+    char path[ACCEL_MOST_PATH]; /* links followed */
 } accel_place;
 
 /* How it went. */
@@ -40,7 +42,7 @@ const char *accel_place_find(accel_place *place, const char *name);
  * that is there, or, where a file is in a folder that may not be written, in $TMPDIR. Whatever
  * replaces something is for its owner alone until it is in place. Writes the name to `temporary`;
  * returns the descriptor of a file, 0 for a folder, or -1 and sets errno. */
-int accel_place_make(const accel_place *place, bool folder, char temporary[PATH_MAX]);
+int accel_place_make(const accel_place *place, bool folder, char temporary[ACCEL_MOST_PATH]);
 
 /* Moves a finished file, of which `descriptor` is open, to `path`, or copies it into the file that
  * is there; output.h says when. Sets errno where that fails. */
