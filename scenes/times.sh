@@ -30,7 +30,7 @@ configs=("$@")
 install_missing povray povray-includes povray-examples
 check_configs "${configs[@]}"
 times=$build/times
-mkdir -p "$times"
+need_folder "$times"
 
 # trace SCENE NAME COMMAND...: renders, and adds the CPU seconds to the scene's list.
 trace() {

@@ -12,6 +12,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 enum {
     FLAG_CONFIG,
@@ -38,8 +39,8 @@ static const accel_flag flags[] = {
                     "rays of each kind that auto may try before it chooses (default: 64)"},
     [FLAG_PEERS] = {"peers", 0, NULL, "Embree as well: medium and high, fast and robust"},
     [FLAG_CSV] = {"csv", 0, "[FILE.csv]",
-                  "all figures as well; without a file, on standard output instead of the\n"
-                  "tables"},
+                  "all figures as well; without a file, or as -, on standard output instead\n"
+                  "of the tables"},
 };
 
 /* Tests that linear may take to judge rays of one kind, and the rays that it judges at least. */
@@ -252,7 +253,7 @@ static int run_into_file(request *r)
         return accel_complain(r->command, "%s", error.text);
     }
     r->output.csv = output.file;
-    return accel_end_output(&output, run_scenes(r), r->command);
+    return accel_end_output(&output, run_scenes(r), ACCEL_EXIT_FINE, r->command);
 }
 
 /* ------------------------------------------------------------------ arguments ---- */
@@ -289,6 +290,20 @@ static bool is_form(const accel_option *option)
     return strcmp(option->key, "form") == 0 || strcmp(option->key, "root") == 0;
 }
 
+/* A word behind a bare --csv may be meant as its file: it is a scene only where it cannot be. */
+static bool add_scene(const accel_arguments *a, request *r)
+{
+    accel_error error;
+    if (a->declined && (access(a->value, F_OK) == 0 || !accel_scene_understood(a->value, &error))) {
+        accel_complain(r->command,
+                       "'%.100s' behind --csv does not end in .csv and is no built-in scene; to "
+                       "write to it say --csv=%.100s, to read it put it in front of --csv",
+                       a->value, a->value);
+        return false;
+    }
+    return accel_scene_names_add(&r->scenes, a->value, r->command);
+}
+
 static bool take(accel_arguments *a, int flag, void *user)
 {
     request *r = user;
@@ -310,10 +325,10 @@ static bool take(accel_arguments *a, int flag, void *user)
         return true;
     case FLAG_CSV:
         r->csv = true;
-        r->csv_name = a->value;
+        r->csv_name = a->value == NULL || strcmp(a->value, "-") == 0 ? NULL : a->value;
         return true;
     default:
-        return accel_scene_names_add(&r->scenes, a->value, r->command);
+        return add_scene(a, r);
     }
 }
 
@@ -360,5 +375,6 @@ const accel_command accel_command_bench = {
         "With several scenes, mean and worst as well: accel bench SCENE... -n 4000 --repeats 3",
     .flags = flags,
     .flag_count = sizeof flags / sizeof flags[0],
+    .many = 1u << FLAG_CONFIG,
     .run = run,
 };

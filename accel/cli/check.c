@@ -225,5 +225,6 @@ const accel_command accel_command_check = {
         "bounce, vertex, edge, axis, grazing, far, scaled, interval, odd.",
     .flags = flags,
     .flag_count = sizeof flags / sizeof flags[0],
+    .many = 1u << FLAG_CONFIG,
     .run = run,
 };

@@ -18,7 +18,7 @@ enum { FLAG_MOST, FLAG_REPEATS, FLAG_CSV };
 static const accel_flag flags[] = {
     [FLAG_MOST] = {"most", 'n', "N", "largest size of a family (default: 10000000)"},
     [FLAG_REPEATS] = {"repeats", 0, "N", "turns for each scene, at least (default: 3)"},
-    [FLAG_CSV] = {"csv", 0, "FILE", "write all figures there as well"},
+    [FLAG_CSV] = {"csv", 0, "FILE", "write all figures there as well; " ACCEL_DASH},
 };
 
 enum { MOST_REPEATS = 51, LEAST = 10000 };
@@ -197,7 +197,7 @@ static int run_into_file(request *r)
     }
     r->csv = output.file;
     fprintf(r->csv, "scene,primitives,clusters,size_classes,cluster_seconds,build_seconds\n");
-    return accel_end_output(&output, run_words(r), r->command);
+    return accel_end_output(&output, run_words(r), ACCEL_EXIT_FINE, r->command);
 }
 
 static bool take(accel_arguments *a, int flag, void *user)

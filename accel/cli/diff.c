@@ -4,6 +4,8 @@
  */
 #include "commands.h"
 #include "image.h"
+#include "structure.h"
+#include "words.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
@@ -113,25 +115,8 @@ static uint64_t compare(const accel_image *a, const accel_image *b, unsigned cha
     return different;
 }
 
-static bool write_picture(const unsigned char *picture, const accel_image *a, const char *path,
-                          accel_error *error)
-{
-    accel_output output;
-    if (path == NULL) {
-        return true;
-    }
-    if (!accel_output_open(&output, path, error)) {
-        return false;
-    }
-    if (!accel_write_png(picture, a->width, a->height, &output, error)) {
-        accel_output_abandon(&output);
-        return false;
-    }
-    return accel_output_commit(&output, error);
-}
-
 static int diff_images(const accel_command *command, char *const names[2], const accel_image *a,
-                       const accel_image *b, const char *output)
+                       const accel_image *b, accel_output *output)
 {
     const char *trouble = why_not_comparable(a, b);
     if (trouble != NULL) {
@@ -144,7 +129,8 @@ static int diff_images(const accel_command *command, char *const names[2], const
     }
     const uint64_t different = compare(a, b, picture);
     accel_error error;
-    const bool written = write_picture(picture, a, output, &error);
+    const bool written =
+        output == NULL || accel_write_png(picture, a->width, a->height, output, &error);
     free(picture);
     if (!written) {
         return accel_complain(command, "%s", error.text);
@@ -152,7 +138,8 @@ static int diff_images(const accel_command *command, char *const names[2], const
     return different == 0 ? ACCEL_EXIT_FINE : ACCEL_EXIT_DIFFERENT;
 }
 
-static int diff_files(const accel_command *command, char *const names[2], const char *output)
+/* `output` is NULL where no picture is asked for. */
+static int diff_files(const accel_command *command, char *const names[2], accel_output *output)
 {
     static accel_image a, b;
     accel_error error;
@@ -170,10 +157,18 @@ static int diff_files(const accel_command *command, char *const names[2], const 
     return code;
 }
 
-static bool ends_in_png(const char *name)
+static int diff_into_file(const accel_command *command, char *const names[2], const char *path)
 {
-    const size_t length = strlen(name);
-    return length > 4 && strcmp(name + length - 4, ".png") == 0;
+    accel_output output;
+    accel_error error;
+    if (path == NULL) {
+        return diff_files(command, names, NULL);
+    }
+    if (!accel_output_open(&output, path, &error)) {
+        return accel_complain(command, "%s", error.text);
+    }
+    return accel_end_output(&output, diff_files(command, names, &output), ACCEL_EXIT_DIFFERENT,
+                            command);
 }
 
 static int run(const accel_command *command, int argc, char **argv)
@@ -201,11 +196,11 @@ static int run(const accel_command *command, int argc, char **argv)
                 return accel_complain(command, "two files are needed; usage: accel %s %s",
                                       command->name, command->arguments);
             }
-            if (output != NULL && !ends_in_png(output)) {
+            if (output != NULL && !accel_ends_with(output, ".png")) {
                 return accel_complain(
                     command, "-o '%.100s' does not end in .png; nothing was written", output);
             }
-            return diff_files(command, names, output);
+            return diff_into_file(command, names, output);
         }
     }
 }

@@ -12,7 +12,7 @@
 enum { FLAG_OUTPUT, FLAG_AS };
 
 static const accel_flag flags[] = {
-    {"output", 'o', "FILE.inc", "file to write"},
+    {"output", 'o', "FILE.inc", "file to write; " ACCEL_DASH},
     {"as", 0, "FORM",
      "mesh2 (default): an array Geometry of mesh2 objects, vertices rounded to float;\n"
      "triangles: an array Corners[TRIANGLE][3], exact in double; geometry G begins at First[G]"},
@@ -25,34 +25,39 @@ typedef struct job {
     accel_sdl_form form;
 } job;
 
-static int write_file(const accel_command *command, const job *job, const accel_scene *scene)
+static int write_scene(const accel_command *command, const job *job, const accel_scene *scene,
+                       FILE *file)
 {
     accel_error error;
-    accel_output output;
     if (!accel_sdl_fits(scene, job->form, &error)) {
         return accel_complain(command, "%s: %s; nothing was written", job->scene, error.text);
     }
-    if (!accel_output_open(&output, job->output, &error)) {
-        return accel_complain(command, "%s", error.text);
-    }
-    if (!accel_sdl_write(output.file, scene, job->form)) {
-        accel_output_abandon(&output);
-        return accel_complain(command, "out of memory; nothing was written");
-    }
-    return accel_output_commit(&output, &error) ? ACCEL_EXIT_FINE
-                                                : accel_complain(command, "%s", error.text);
+    return accel_sdl_write(file, scene, job->form)
+               ? ACCEL_EXIT_FINE
+               : accel_complain(command, "out of memory; nothing was written");
 }
 
-static int load_and_export(const accel_command *command, const job *job, bool quiet)
+static int load_and_write(const accel_command *command, const job *job, bool quiet, FILE *file)
 {
     accel_progress progress = accel_progress_start(quiet);
     accel_loaded loaded;
     if (!accel_open_scene(&loaded, job->scene, command, &progress)) {
         return ACCEL_EXIT_BAD;
     }
-    const int code = write_file(command, job, &loaded.scene);
+    const int code = write_scene(command, job, &loaded.scene, file);
     accel_unload_scene(&loaded);
     return code;
+}
+
+static int export_scene(const accel_command *command, const job *job, bool quiet)
+{
+    accel_output output;
+    accel_error error;
+    if (!accel_output_open(&output, job->output, &error)) {
+        return accel_complain(command, "%s", error.text);
+    }
+    return accel_end_output(&output, load_and_write(command, job, quiet, output.file),
+                            ACCEL_EXIT_FINE, command);
 }
 
 static bool read_form(const accel_command *command, const char *word, accel_sdl_form *form)
@@ -93,7 +98,7 @@ static int run(const accel_command *command, int argc, char **argv)
                                       "SCENE and -o FILE.inc are needed; usage: accel %s %s",
                                       command->name, command->arguments);
             }
-            return load_and_export(command, &job, arguments.quiet);
+            return export_scene(command, &job, arguments.quiet);
         }
     }
 }

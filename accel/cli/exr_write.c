@@ -10,12 +10,6 @@
 #include <string.h>
 #include <unistd.h>
 
-/* A stream and its first trouble. */
-typedef struct stream {
-    int descriptor;
-    int error; /* errno, or 0 */
-} stream;
-
 static void say_nothing(exr_const_context_t context, exr_result_t code, const char *text)
 {
     (void)context, (void)code, (void)text;
@@ -24,14 +18,14 @@ static void say_nothing(exr_const_context_t context, exr_result_t code, const ch
 static int64_t write_bytes(exr_const_context_t context, void *user, const void *bytes,
                            uint64_t count, uint64_t offset, exr_stream_error_func_ptr_t complain)
 {
-    stream *s = user;
+    accel_output *output = user;
     const char *at = bytes;
     uint64_t done = 0;
     while (done < count) {
         const ssize_t written =
-            pwrite(s->descriptor, at + done, count - done, (off_t)(offset + done));
+            pwrite(output->descriptor, at + done, count - done, (off_t)(offset + done));
         if (written < 0 && errno != EINTR) {
-            s->error = errno;
+            output->trouble = errno;
             complain(context, EXR_ERR_WRITE_IO, "%s", strerror(errno));
             return -1;
         }
@@ -96,11 +90,10 @@ static exr_result_t write_rows(exr_context_t context, const accel_image *image)
 
 bool accel_image_write_exr(const accel_image *image, accel_output *output, accel_error *error)
 {
-    stream s = {.descriptor = fileno(output->file)};
     exr_context_initializer_t initializer = EXR_DEFAULT_CONTEXT_INITIALIZER;
     initializer.error_handler_fn = say_nothing;
     initializer.write_fn = write_bytes;
-    initializer.user_data = &s;
+    initializer.user_data = output;
     exr_context_t context = NULL;
     exr_result_t result =
         exr_start_write(&context, output->path, EXR_WRITE_FILE_DIRECTLY, &initializer);
@@ -112,12 +105,8 @@ bool accel_image_write_exr(const accel_image *image, accel_output *output, accel
     }
     const exr_result_t finished = context == NULL ? result : exr_finish(&context);
     result = result == EXR_ERR_SUCCESS ? finished : result;
-    if (result == EXR_ERR_SUCCESS && s.error == 0) {
+    if (result == EXR_ERR_SUCCESS && output->trouble == 0) {
         return true;
     }
-    error->status = ACCEL_BAD_ARGUMENT;
-    snprintf(error->text, sizeof error->text, "cannot write %.200s: %s; nothing was written",
-             output->path,
-             s.error != 0 ? strerror(s.error) : exr_get_default_error_message(result));
-    return false;
+    return accel_output_failed(output, exr_get_default_error_message(result), error);
 }

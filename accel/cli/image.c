@@ -42,8 +42,5 @@ bool accel_write_png(const unsigned char *pixels, uint32_t width, uint32_t heigh
     if (png_image_write_to_stdio(&png, output->file, 0, pixels, 0, NULL) != 0) {
         return true;
     }
-    error->status = ACCEL_BAD_ARGUMENT;
-    snprintf(error->text, sizeof error->text, "cannot write %.200s: %s; nothing was written",
-             output->path, png.message);
-    return false;
+    return accel_output_failed(output, png.message, error);
 }

@@ -166,5 +166,6 @@ const accel_command accel_command_info = {
         "joined nor moved; coordinates are read as float, the matrices of nodes applied in double.",
     .flags = flags,
     .flag_count = sizeof flags / sizeof flags[0],
+    .many = 1u << FLAG_CONFIG,
     .run = run,
 };

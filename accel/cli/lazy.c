@@ -23,7 +23,7 @@ static const accel_flag flags[] = {
                      "structure that has the option lazy (default: hoo)"},
     [FLAG_RAYS] = {"rays", 'n', "N", "rays of the render (default: 1000000)"},
     [FLAG_REPEATS] = {"repeats", 0, "N", "turns of each (default: 5)"},
-    [FLAG_CSV] = {"csv", 0, "FILE", "write all figures there as well"},
+    [FLAG_CSV] = {"csv", 0, "FILE", "write all figures there as well; " ACCEL_DASH},
 };
 
 enum { MOST_MARKS = 10, MOST_REPEATS = 51, JUDGED = 200 };
@@ -356,7 +356,7 @@ static int run_into_file(request *q)
     q->csv = output.file;
     fprintf(q->csv, "scene,config,rays,eager_seconds,lazy_seconds,render_rays,unbuilt_clusters,"
                     "clusters,unbuilt_primitives,primitives,lazy_bytes,eager_bytes\n");
-    return accel_end_output(&output, run_scenes(q), q->command);
+    return accel_end_output(&output, run_scenes(q), ACCEL_EXIT_FINE, q->command);
 }
 
 static bool take(accel_arguments *a, int flag, void *user)

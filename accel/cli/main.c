@@ -43,8 +43,8 @@ static int complain_of_command(const char *name)
     for (size_t i = 0; i < COMMANDS; i++) {
         accel_nearest_offer(name, strlen(name), commands[i]->name, &nearest, &distance);
     }
-    fprintf(stderr, "accel: unknown command '%.60s'; nearest is %s; 'accel --help' lists all\n",
-            name, nearest);
+    fprintf(stderr, "accel: unknown command '%.60s'%s%s; 'accel --help' lists all\n", name,
+            nearest == NULL ? "" : "; nearest is ", nearest == NULL ? "" : nearest);
     return ACCEL_EXIT_BAD;
 }
 
@@ -80,15 +80,27 @@ static void occupy_standard_files(void)
     close(file);
 }
 
+/* Where it failed before the end, stdio no longer knows why: the same is tried once more. */
+static bool all_printed(void)
+{
+    errno = 0;
+    if (fflush(stdout) == 0 && !ferror(stdout)) {
+        return true;
+    }
+    if (errno == 0) {
+        putchar('\n');
+        fflush(stdout);
+    }
+    fprintf(stderr, "accel: cannot write the output: %s\n",
+            errno == EBADF ? "it is closed"
+            : errno == 0   ? "a part of it is lost"
+                           : strerror(errno));
+    return false;
+}
+
 int main(int argc, char **argv)
 {
     occupy_standard_files();
     const int code = run(argc, argv);
-    errno = 0;
-    if (fflush(stdout) != 0 || ferror(stdout)) {
-        fprintf(stderr, "accel: cannot write the output: %s\n",
-                errno == 0 ? "it is closed or full" : strerror(errno));
-        return ACCEL_EXIT_BAD;
-    }
-    return code;
+    return all_printed() ? code : ACCEL_EXIT_BAD;
 }

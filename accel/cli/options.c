@@ -119,6 +119,9 @@ static bool is_optional_value(const accel_arguments *a, const accel_flag *flag)
     if (a->at >= a->argc || ending == NULL) {
         return false;
     }
+    if (strcmp(a->argv[a->at], "-") == 0) {
+        return true;
+    }
     const size_t length = strlen(a->argv[a->at]), own = strcspn(ending, "]");
     return length > own && memcmp(a->argv[a->at] + length - own, ending, own) == 0;
 }
@@ -129,10 +132,20 @@ static int stop(accel_arguments *a, int code)
     return ACCEL_ARGUMENT_STOP;
 }
 
+/* Of two values of one option the first would be lost without a word. */
+static bool is_second(accel_arguments *a, int index, const accel_flag *flag)
+{
+    const uint64_t bit = flag->argument == NULL ? 0 : UINT64_C(1) << index;
+    const bool second = (a->seen & bit & ~a->command->many) != 0;
+    a->seen |= bit;
+    return second;
+}
+
 /* The flag `index` has been named; `attached` is the value behind it, or NULL. */
 static int take_flag(accel_arguments *a, int index, const char *attached)
 {
     const accel_flag *flag = flag_at(a->command, index);
+    a->bare = false;
     if (flag->argument == NULL && attached != NULL) {
         return stop(a, accel_complain(a->command, "--%s takes no value", flag->name));
     }
@@ -144,9 +157,14 @@ static int take_flag(accel_arguments *a, int index, const char *attached)
         print_help(a->command);
         return stop(a, ACCEL_EXIT_FINE);
     }
+    if (is_second(a, index, flag)) {
+        return stop(a,
+                    accel_complain(a->command, "--%s is given twice; once is allowed", flag->name));
+    }
     a->value = attached;
     const bool optional = flag->argument != NULL && flag->argument[0] == '[';
-    if (flag->argument != NULL && attached == NULL && (!optional || is_optional_value(a, flag))) {
+    a->bare = optional && attached == NULL && !is_optional_value(a, flag);
+    if (flag->argument != NULL && attached == NULL && !a->bare) {
         if (a->at >= a->argc) {
             return stop(a, accel_complain(a->command, "--%s needs a value: %s", flag->name,
                                           flag->argument));
@@ -156,14 +174,25 @@ static int take_flag(accel_arguments *a, int index, const char *attached)
     return index;
 }
 
+static int unknown_option(const accel_command *command, const char *name, size_t length,
+                          const char *nearest)
+{
+    const int shown = length < 60 ? (int)length : 60;
+    return nearest == NULL
+               ? accel_complain(command,
+                                "unknown option --%.*s; 'accel %s --help' lists the options", shown,
+                                name, command->name)
+               : accel_complain(command, "unknown option --%.*s; nearest is --%s", shown, name,
+                                nearest);
+}
+
 static int take_long(accel_arguments *a, const char *name)
 {
     const size_t length = strcspn(name, "=");
     const char *nearest = NULL;
     const int index = find_name(a->command, name, length, &nearest);
     if (index < 0) {
-        return stop(a, accel_complain(a->command, "unknown option --%.*s; nearest is --%s",
-                                      (int)length, name, nearest));
+        return stop(a, unknown_option(a->command, name, length, nearest));
     }
     return take_flag(a, index, name[length] == '=' ? name + length + 1 : NULL);
 }
@@ -187,6 +216,8 @@ int accel_next_argument(accel_arguments *a)
     const char *word = a->argv[a->at++];
     if (a->words_only || word[0] != '-' || word[1] == '\0') {
         a->value = word;
+        a->declined = a->bare;
+        a->bare = false;
         return ACCEL_ARGUMENT_WORD;
     }
     if (strcmp(word, "--") == 0) {

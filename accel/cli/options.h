@@ -14,11 +14,12 @@
 
 /* One option. */
 typedef struct accel_flag {
-    const char *name;     /* without the dashes */
-    char letter;          /* of the short form, or 0 */
-    const char *argument; /* the name of its value in the help, or NULL if it has none; in brackets
-                             if it may be left out: "[FILE.csv]" takes a next word in .csv */
-    const char *help;     /* one or more lines */
+    const char *name; /* without the dashes */
+    char letter;      /* of the short form, or 0 */
+    const char
+        *argument;    /* the name of its value in the help, or NULL if it has none; in brackets
+                         if it may be left out: "[FILE.csv]" takes a next word in .csv, or "-" */
+    const char *help; /* one or more lines */
 } accel_flag;
 
 /* A subcommand. */
@@ -29,6 +30,7 @@ typedef struct accel_command {
     const char *details;     /* paragraphs for --help, or NULL */
     const accel_flag *flags; /* `flag_count` of them, --help and --quiet not among them */
     size_t flag_count;
+    uint64_t many; /* a bit for each flag that may be given more than once */
     /* Runs it: argv[1] is the first argument. Returns the exit code. */
     int (*run)(const struct accel_command *command, int argc, char **argv);
 } accel_command;
@@ -45,9 +47,12 @@ typedef struct accel_arguments {
     char **argv;
     int argc;
     int at;            /* of the next argument */
+    uint64_t seen;     /* a bit for each flag with a value that has been given */
     bool words_only;   /* "--" has been seen */
     bool quiet;        /* --quiet has been seen */
     int exit_code;     /* after ACCEL_ARGUMENT_STOP */
+    bool bare;         /* the flag before was given without the value that it may have */
+    bool declined;     /* that word could have been the value of the flag before it */
     const char *value; /* of the flag, or the word */
 } accel_arguments;
 

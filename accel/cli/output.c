@@ -1,150 +1,126 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Output files that appear whole or not at all.
+ * One output file from its opening to its place.
  */
 #include "output.h"
 
+#include "sink.h"
+#include "unfinished.h"
+
 #include <errno.h>
-#include <signal.h>
-#include <stdlib.h>
+#include <inttypes.h>
 #include <string.h>
-#include <sys/stat.h>
+#include <sys/mman.h>
 #include <unistd.h>
 
-/* For the signal handler: the file to remove. */
-static const char *volatile unfinished;
-
-static void remove_unfinished(int number)
-{
-    const char *path = unfinished;
-    if (path != NULL) {
-        unlink(path);
-    }
-    /* not earlier: a second signal, in another thread, would end the process before the unlink */
-    signal(number, SIG_DFL);
-    raise(number);
-}
-
-static void watch(const char *path)
-{
-    static const int signals[] = {SIGINT, SIGTERM, SIGHUP};
-    unfinished = path;
-    struct sigaction action = {.sa_handler = path == NULL ? SIG_DFL : remove_unfinished};
-    for (size_t i = 0; i < sizeof signals / sizeof signals[0]; i++) {
-        sigaction(signals[i], &action, NULL);
-    }
-}
-
-static bool fail(const char *path, const char *trouble, accel_error *error)
+static bool fail(const accel_output *output, const char *trouble, const char *state,
+                 accel_error *error)
 {
     error->status = ACCEL_BAD_ARGUMENT;
-    snprintf(error->text, sizeof error->text, "cannot write %.200s: %s; nothing was written", path,
-             trouble);
+    snprintf(error->text, sizeof error->text, "cannot write %.150s: %s; %s", output->path, trouble,
+             state);
     return false;
 }
 
-/* mkstemp makes files that only their owner may read. */
-static void give_usual_mode(int descriptor)
+bool accel_output_failed(const accel_output *output, const char *otherwise, accel_error *error)
 {
-    const mode_t mask = umask(0);
-    umask(mask);
-    fchmod(descriptor, 0666 & ~mask);
+    return fail(output, output->trouble != 0 ? strerror(output->trouble) : otherwise,
+                "nothing was written", error);
 }
 
-static bool open_temporary(accel_output *output, accel_error *error)
+/* Signals wait, so that none comes between the file and its watch. */
+static const char *make_temporary(accel_output *output)
 {
-    static const char ending[] = ".XXXXXX";
-    const size_t length = strlen(output->path);
-    output->temporary = malloc(length + sizeof ending);
-    if (output->temporary == NULL) {
-        return fail(output->path, "out of memory", error);
+    sigset_t before;
+    accel_signals_hold(&before);
+    const bool stream = output->place.kind == ACCEL_PLACE_STREAM;
+    output->descriptor = stream ? memfd_create("accel", MFD_CLOEXEC)
+                                : accel_place_make(&output->place, false, output->temporary);
+    const char *trouble = output->descriptor < 0 ? strerror(errno) : NULL;
+    if (trouble == NULL && !stream) {
+        accel_unfinished_start(output->temporary, false);
     }
-    memcpy(output->temporary, output->path, length);
-    memcpy(output->temporary + length, ending, sizeof ending);
-    const int descriptor = mkstemp(output->temporary);
-    if (descriptor < 0) {
-        fail(output->path, strerror(errno), error);
-        free(output->temporary);
-        return false;
-    }
-    watch(output->temporary);
-    give_usual_mode(descriptor);
-    output->file = fdopen(descriptor, "wb");
-    if (output->file == NULL) {
-        fail(output->path, strerror(errno), error);
-        close(descriptor);
-        unlink(output->temporary);
-        watch(NULL);
-        free(output->temporary);
-        return false;
-    }
-    return true;
+    accel_signals_go_on(&before);
+    return trouble;
 }
 
-/* The file that a link leads to takes its place in `path`: renaming would replace the link. */
-static bool follow_link(accel_output *output, accel_error *error)
+static const char *open_output(accel_output *output, const char *path)
 {
-    struct stat status;
-    if (lstat(output->path, &status) != 0 || !S_ISLNK(status.st_mode)) {
-        return true;
+    const char *trouble = accel_place_find(&output->place, path);
+    if (trouble == NULL) {
+        trouble =
+            output->place.kind == ACCEL_PLACE_FOLDER ? "it is a directory" : make_temporary(output);
     }
-    output->target = realpath(output->path, NULL);
-    if (output->target == NULL) {
-        return fail(output->path, "it is a link that leads to no file", error);
+    if (trouble != NULL) {
+        return trouble;
     }
-    output->path = output->target;
-    return true;
+    output->file = accel_sink_open(output->descriptor, &output->trouble);
+    return output->file == NULL ? strerror(errno) : NULL;
 }
 
 bool accel_output_open(accel_output *output, const char *path, accel_error *error)
 {
-    *output = (accel_output){.path = path};
-    struct stat status;
-    if (stat(path, &status) == 0 && S_ISDIR(status.st_mode)) {
-        return fail(path, "it is a directory", error);
+    *output =
+        (accel_output){.path = strcmp(path, "-") == 0 ? "standard output" : path, .descriptor = -1};
+    const char *trouble = open_output(output, path);
+    if (trouble == NULL) {
+        return true;
     }
-    if (stat(path, &status) == 0 && !S_ISREG(status.st_mode)) {
-        output->file = fopen(path, "wb");
-        return output->file != NULL || fail(path, strerror(errno), error);
+    fail(output, trouble, "nothing was written", error);
+    accel_output_abandon(output);
+    return false;
+}
+
+static bool commit_stream(const accel_output *output, accel_error *error)
+{
+    uint64_t done = 0;
+    char state[60] = "nothing was written";
+    fflush(stdout); /* what was printed before stands before it */
+    const char *trouble = accel_place_stream(output->descriptor, output->place.descriptor, &done);
+    if (done > 0) {
+        snprintf(state, sizeof state, "only the first %" PRIu64 " bytes were written", done);
     }
-    if (!follow_link(output, error)) {
-        return false;
+    return trouble == NULL || fail(output, trouble, state, error);
+}
+
+static bool commit_file(const accel_output *output, accel_error *error)
+{
+    char state[300] = "nothing was written";
+    const accel_placed placed =
+        accel_place_file(output->descriptor, output->temporary, output->place.path);
+    const char *trouble = strerror(errno);
+    if (placed == ACCEL_HALF_PLACED) {
+        snprintf(state, sizeof state, "its old content is damaged, the new one is in %.250s",
+                 output->temporary);
     }
-    if (!open_temporary(output, error)) {
-        free(output->target);
-        return false;
-    }
-    return true;
+    return placed == ACCEL_PLACED || fail(output, trouble, state, error);
 }
 
 bool accel_output_commit(accel_output *output, accel_error *error)
 {
-    errno = 0;
-    const bool written = fflush(output->file) == 0 && !ferror(output->file);
-    const bool closed = fclose(output->file) == 0;
-    output->file = NULL;
-    if (!written || !closed ||
-        (output->temporary != NULL && rename(output->temporary, output->path) != 0)) {
-        fail(output->path, errno == 0 ? "the device took no more" : strerror(errno), error);
-        accel_output_abandon(output);
-        return false;
+    bool fine = fflush(output->file) == 0 && !ferror(output->file) && output->trouble == 0;
+    if (!fine) {
+        accel_output_failed(output, "the device took no more", error);
+    } else if (output->place.kind == ACCEL_PLACE_STREAM) {
+        fine = commit_stream(output, error);
+    } else {
+        fine = commit_file(output, error);
     }
-    watch(NULL);
-    free(output->temporary);
-    free(output->target);
-    return true;
+    accel_output_abandon(output);
+    return fine;
 }
 
+/* Nothing is left to be removed of what is in its place. */
 void accel_output_abandon(accel_output *output)
 {
+    accel_unfinished_remove();
     if (output->file != NULL) {
         fclose(output->file);
+    } else if (output->descriptor >= 0) {
+        close(output->descriptor);
     }
-    if (output->temporary != NULL) {
-        unlink(output->temporary);
-        watch(NULL);
-        free(output->temporary);
+    if (output->place.descriptor >= 0) {
+        close(output->place.descriptor);
     }
-    free(output->target);
-    *output = (accel_output){0};
+    *output = (accel_output){.descriptor = -1, .place.descriptor = -1};
 }

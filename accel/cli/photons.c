@@ -142,20 +142,14 @@ static bool take(accel_arguments *a, int flag, void *request)
     }
 }
 
-static bool ends_with(const char *path, const char *ending)
-{
-    const size_t length = strlen(path), own = strlen(ending);
-    return length > own && strcmp(path + length - own, ending) == 0;
-}
-
 static int check_request(const accel_command *command, accel_photon_request *r)
 {
     if (r->scene == NULL) {
         return accel_complain(command, "no SCENE is given; usage: accel %s %s", command->name,
                               command->arguments);
     }
-    if (r->output != NULL &&
-        (r->time_only || (!ends_with(r->output, ".exr") && !ends_with(r->output, ".png")))) {
+    if (r->output != NULL && (r->time_only || (!accel_ends_with(r->output, ".exr") &&
+                                               !accel_ends_with(r->output, ".png")))) {
         return accel_complain(command, "-o '%.100s' %s; nothing was written", r->output,
                               r->time_only ? "needs what --time-only leaves out"
                                            : "ends in neither .exr nor .png");
@@ -192,5 +186,6 @@ const accel_command accel_command_photons = {
         "build and the irradiance are apart.",
     .flags = flags,
     .flag_count = sizeof flags / sizeof flags[0],
+    .many = 1u << FLAG_CONFIG | 1u << FLAG_LIGHT,
     .run = run,
 };

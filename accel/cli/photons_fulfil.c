@@ -182,31 +182,19 @@ static bool check_configs(const session *s)
     return true;
 }
 
-/* The file is opened before anything long is computed, and appears whole or not at all. */
-static int illuminate_into_file(session *s)
+/* `output` is NULL where no picture is asked for. */
+static int illuminate_and_write(session *s, accel_output *output)
 {
-    if (s->request->output == NULL) {
-        return illuminate_all(s);
-    }
-    accel_output output;
     accel_error error;
-    if (!accel_output_open(&output, s->request->output, &error)) {
-        return accel_complain(s->command, "%s", error.text);
-    }
     const int code = illuminate_all(s);
-    if (code == ACCEL_EXIT_BAD) {
-        accel_output_abandon(&output);
-        return code;
-    }
-    if (!accel_view_write(&s->view, s->irradiance, &output, &error)) {
-        accel_output_abandon(&output);
-        return accel_complain(s->command, "%s", error.text);
-    }
-    return accel_output_commit(&output, &error) ? code
-                                                : accel_complain(s->command, "%s", error.text);
+    return code == ACCEL_EXIT_BAD || output == NULL ||
+                   accel_view_write(&s->view, s->irradiance, output, &error)
+               ? code
+               : accel_complain(s->command, "%s", error.text);
 }
 
-int accel_photons_fulfil(const accel_command *command, accel_photon_request *r)
+static int load_and_illuminate(const accel_command *command, accel_photon_request *r,
+                               accel_output *output)
 {
     session s = {.command = command, .request = r, .progress = accel_progress_start(r->quiet)};
     if (!accel_open_scene(&s.loaded, r->scene, command, &s.progress)) {
@@ -222,11 +210,26 @@ int accel_photons_fulfil(const accel_command *command, accel_photon_request *r)
     int code = ACCEL_EXIT_BAD;
     if (check_configs(&s) &&
         accel_camera_argument(command, size, r->camera, &s.loaded.scene, &s.camera)) {
-        code = illuminate_into_file(&s);
+        code = illuminate_and_write(&s, output);
     }
     accel_view_free(&s.view);
     free(s.irradiance);
     free(s.again);
     accel_unload_scene(&s.loaded);
     return code;
+}
+
+/* The file is opened before anything long is computed, and appears whole or not at all. */
+int accel_photons_fulfil(const accel_command *command, accel_photon_request *r)
+{
+    accel_output output;
+    accel_error error;
+    if (r->output == NULL) {
+        return load_and_illuminate(command, r, NULL);
+    }
+    if (!accel_output_open(&output, r->output, &error)) {
+        return accel_complain(command, "%s", error.text);
+    }
+    return accel_end_output(&output, load_and_illuminate(command, r, &output), ACCEL_EXIT_DIFFERENT,
+                            command);
 }

@@ -2,6 +2,7 @@
 #include "photons_view.h"
 
 #include "photons_surface.h"
+#include "words.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -91,8 +92,6 @@ static bool write_png(const accel_view *view, const double *irradiance, accel_ou
 bool accel_view_write(const accel_view *view, const double *irradiance, accel_output *output,
                       accel_error *error)
 {
-    const size_t length = strlen(output->path);
-    const bool png = length > 4 && strcmp(output->path + length - 4, ".png") == 0;
-    return png ? write_png(view, irradiance, output, error)
-               : write_exr(view, irradiance, output, error);
+    return accel_ends_with(output->path, ".png") ? write_png(view, irradiance, output, error)
+                                                 : write_exr(view, irradiance, output, error);
 }

@@ -6,13 +6,14 @@
 #include "report.h"
 #include "words.h"
 
+#include <errno.h>
 #include <string.h>
 
 enum { FLAG_OUTPUT, FLAG_QUICK, FLAG_MINUTES, FLAG_ONLY };
 
 static const accel_flag flags[] = {
     [FLAG_OUTPUT] = {"output", 'o', "DIR",
-                     "folder to make; a former report there is replaced, nothing else"},
+                     "folder to make or to fill; a former report there is replaced, nothing else"},
     [FLAG_QUICK] = {"quick", 0, NULL, "fewer rays, photons and sizes: less than two minutes"},
     [FLAG_MINUTES] = {"minutes", 0, "M",
                       "at most about as long, 0..1440 (default: 60); 0: the least counts"},
@@ -72,10 +73,10 @@ static bool run_parts(accel_reporting *r, const request *q)
 
 static bool make_report(accel_reporting *r, const request *q)
 {
-    r->page = accel_folder_file(&r->folder, "index.html", "w");
+    r->page = accel_folder_write(&r->folder, "index.html");
     if (r->page == NULL) {
-        accel_complain(r->command, "cannot write index.html in %.200s; nothing was written",
-                       r->folder.temporary);
+        accel_complain(r->command, "cannot write index.html: %s; nothing was written",
+                       strerror(errno));
         return false;
     }
     accel_page_open(r);

@@ -52,20 +52,20 @@ bool accel_page_plot(accel_reporting *r, const char *name, const char *csv, cons
 
 /* -------------------------------------------------------------------- plots ---- */
 
-/* A program for gnuplot on its way there. */
+/* A program for gnuplot. */
 typedef struct accel_plot {
     FILE *script; /* to write to */
-    int child;    /* its process */
     char name[40];
 } accel_plot;
 
 /* Why gnuplot cannot be run, or NULL. */
 const char *accel_plot_missing(void);
 
-/* Starts gnuplot for NAME.svg in the folder, with the style of all plots set. False: said. */
+/* Starts a program that draws NAME.svg in the folder, with the style of all plots set. False: said.
+ */
 bool accel_plot_open(accel_reporting *r, accel_plot *plot, const char *name, int width, int height);
 
-/* Ends it. False: it has failed, and that has been said. */
+/* Has gnuplot draw it. False: that has failed, and that has been said. */
 bool accel_plot_close(accel_reporting *r, accel_plot *plot);
 
 /* How a contender is drawn in all plots: "lc rgb '#0072B2' pt 7". By kind, or for peers. */

@@ -25,7 +25,7 @@ bool accel_report_has_structures(accel_reporting *r, const char *id, const char 
 
 FILE *accel_report_csv(accel_reporting *r, const char *name, const char *columns)
 {
-    FILE *csv = accel_folder_file(&r->folder, name, "w");
+    FILE *csv = accel_folder_write(&r->folder, name);
     if (csv == NULL) {
         accel_complain(r->command, "cannot write %s: %s; nothing was written", name,
                        strerror(errno));
@@ -37,14 +37,11 @@ FILE *accel_report_csv(accel_reporting *r, const char *name, const char *columns
 
 bool accel_report_csv_close(accel_reporting *r, FILE *csv, const char *name)
 {
-    errno = 0;
-    const bool fine = !ferror(csv);
-    if (fclose(csv) == 0 && fine) {
-        return true;
+    const char *trouble = accel_folder_close(&r->folder, csv);
+    if (trouble != NULL) {
+        accel_complain(r->command, "cannot write %s: %s; nothing was written", name, trouble);
     }
-    accel_complain(r->command, "cannot write %s: %s; nothing was written", name,
-                   errno == 0 ? "the device took no more" : strerror(errno));
-    return false;
+    return trouble == NULL;
 }
 
 double accel_report_shown(size_t wrong, size_t n)

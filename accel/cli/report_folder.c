@@ -1,18 +1,17 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * An output folder that appears whole or not at all.
- *
- * A signal handler may unlink but not read a folder, so the names of all files are kept.
+ * The folder of a report: what of a former one may be replaced, and how it is.
  */
 #include "report_folder.h"
+
+#include "sink.h"
+#include "unfinished.h"
 
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
-#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 /* The first line of a report's page: what tells a former report from a folder of something else. */
@@ -21,66 +20,43 @@ static const char mark[] = "<!DOCTYPE html><!-- accel report -->";
 /* How the line of that page begins that names the report's files. */
 static const char list[] = "<!-- files: ";
 
-enum { MOST_FILES = 64 };
+static const char page[] = "index.html";
 
-/* For the signal handler: the folder to remove, and its files. */
-static const char *volatile unfinished;
-static char files[MOST_FILES][64];
-static volatile sig_atomic_t file_count;
+enum { MOST_TEXT = 200 };
 
-static void remove_unfinished(void)
-{
-    const char *path = unfinished;
-    const int folder = path == NULL ? -1 : open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (folder < 0) {
-        return;
-    }
-    for (int i = 0; i < file_count; i++) {
-        unlinkat(folder, files[i], 0);
-    }
-    close(folder);
-    rmdir(path);
-    unfinished = NULL;
-}
-
-static void remove_and_end(int number)
-{
-    remove_unfinished();
-    /* not earlier: a second signal, in another thread, would end the process before it is done */
-    signal(number, SIG_DFL);
-    raise(number);
-}
-
-static void watch(void)
-{
-    static const int signals[] = {SIGINT, SIGTERM, SIGHUP};
-    const struct sigaction action = {.sa_handler = remove_and_end};
-    for (size_t i = 0; i < sizeof signals / sizeof signals[0]; i++) {
-        sigaction(signals[i], &action, NULL);
-    }
-    atexit(remove_unfinished);
-}
-
-static bool fail(const char *path, const char *trouble, accel_error *error)
+static bool fail(const accel_folder *folder, const char *trouble, const char *state,
+                 accel_error *error)
 {
     error->status = ACCEL_BAD_ARGUMENT;
-    snprintf(error->text, sizeof error->text, "cannot write %.200s: %s; nothing was written", path,
-             trouble);
+    snprintf(error->text, sizeof error->text, "cannot write %.150s: %s; %s", folder->name, trouble,
+             state);
     return false;
 }
+
+/* Names a file in a folder. False: too long, and errno says so. */
+static bool join(char path[ACCEL_MOST_PATH], const char *folder, const char *name)
+{
+    const bool fits =
+        (size_t)snprintf(path, ACCEL_MOST_PATH, "%s/%s", folder, name) < ACCEL_MOST_PATH;
+    if (!fits) {
+        errno = ENAMETOOLONG;
+    }
+    return fits;
+}
+
+/* ---------------------------------------------------------------- former report ---- */
 
 /* The names of the files of the report in `path`, each between spaces; NULL: it holds none. To be
  * freed. */
 static char *former_files(const char *path)
 {
-    char name[4096], *line = NULL, *found = NULL;
-    snprintf(name, sizeof name, "%.4000s/index.html", path);
-    FILE *file = fopen(name, "r");
+    char name[ACCEL_MOST_PATH], *line = NULL, *found = NULL;
+    FILE *file = join(name, path, page) ? fopen(name, "re") : NULL;
     if (file == NULL) {
         return NULL;
     }
     size_t room = 0;
-    bool is = getline(&line, &room, file) > 0 && strncmp(line, mark, sizeof mark - 1) == 0;
+    const bool is = getline(&line, &room, file) > 0 && strncmp(line, mark, sizeof mark - 1) == 0;
     while (is && found == NULL && getline(&line, &room, file) > 0) {
         found = strncmp(line, list, sizeof list - 1) == 0 ? strdup(line) : NULL;
     }
@@ -89,15 +65,18 @@ static char *former_files(const char *path)
     return found;
 }
 
-static bool is_former(const char *former, const char *name)
+/* Has the former report made it? Nobody but the user makes a folder or a link of that name. */
+static bool is_former(const char *former, int folder, const char *name)
 {
     char between[300];
+    struct stat status;
     snprintf(between, sizeof between, " %s ", name);
-    return former != NULL && strchr(name, ' ') == NULL && strstr(former, between) != NULL;
+    return former != NULL && strchr(name, ' ') == NULL && strstr(former, between) != NULL &&
+           fstatat(folder, name, &status, AT_SYMLINK_NOFOLLOW) == 0 && S_ISREG(status.st_mode);
 }
 
-/* What keeps a new report from taking the folder's place: anything that no report has made. */
-static const char *why_not_replaced(const char *path, char text[200])
+/* What keeps a new report out of a folder: anything that no report has made, but for `own`. */
+static const char *why_not(const char *path, const char *own, char text[MOST_TEXT])
 {
     DIR *folder = opendir(path);
     if (folder == NULL) {
@@ -108,12 +87,13 @@ static const char *why_not_replaced(const char *path, char text[200])
     for (const struct dirent *e = readdir(folder); e != NULL && trouble == NULL;
          e = readdir(folder)) {
         if (strcmp(e->d_name, ".") == 0 || strcmp(e->d_name, "..") == 0 ||
-            is_former(former, e->d_name)) {
+            strcmp(e->d_name, own) == 0 || is_former(former, dirfd(folder), e->d_name)) {
             continue;
         }
         trouble = "the folder is there and holds no report";
         if (former != NULL) {
-            snprintf(text, 200, "the folder holds '%.100s', which no report has made", e->d_name);
+            snprintf(text, MOST_TEXT, "the folder holds '%.100s', which no report has made",
+                     e->d_name);
             trouble = text;
         }
     }
@@ -122,145 +102,238 @@ static const char *why_not_replaced(const char *path, char text[200])
     return trouble;
 }
 
-/* `path` without slashes at its end: can a folder be moved there? */
-static const char *why_not(const char *path, char text[200])
+/* ------------------------------------------------------------------------- open ---- */
+
+static const char *find_place(accel_folder *folder, char text[MOST_TEXT])
 {
-    const char *slash = strrchr(path, '/'), *last = slash == NULL ? path : slash + 1;
-    if (strcmp(last, "") == 0 || strcmp(last, ".") == 0 || strcmp(last, "..") == 0) {
-        return "give the folder a name";
+    char path[ACCEL_MOST_PATH];
+    size_t length = strlen(folder->name);
+    while (length > 1 && folder->name[length - 1] == '/') {
+        length--;
     }
-    struct stat status, parent;
-    if (lstat(path, &status) != 0) {
-        return errno == ENOENT ? NULL : strerror(errno);
+    if (length >= sizeof path) {
+        return strerror(ENAMETOOLONG);
     }
-    if (!S_ISDIR(status.st_mode)) {
-        return S_ISLNK(status.st_mode) ? "it is a symbolic link, not a folder"
-                                       : "it is a file, not a folder";
+    snprintf(path, sizeof path, "%.*s", (int)length, folder->name);
+    const char *trouble = accel_place_find(&folder->place, path);
+    if (folder->place.descriptor >= 0) {
+        close(folder->place.descriptor);
     }
-    char above[4096];
-    snprintf(above, sizeof above, "%.4000s/..", path);
-    if (stat(above, &parent) != 0 || parent.st_dev != status.st_dev) {
-        return "a file system is mounted there; give a folder in it";
+    if (trouble != NULL) {
+        return trouble;
     }
-    return why_not_replaced(path, text);
+    switch (folder->place.kind) {
+    case ACCEL_PLACE_NEW:
+        return NULL;
+    case ACCEL_PLACE_FOLDER:
+        return why_not(folder->place.path, "", text);
+    default:
+        return "it is a file, not a folder";
+    }
 }
 
+/* Signals wait, so that none comes between the folder and its watch. */
 static const char *make_temporary(accel_folder *folder)
 {
-    snprintf(folder->temporary, sizeof folder->temporary, "%s.XXXXXX", folder->path);
-    if (mkdtemp(folder->temporary) == NULL) {
-        folder->temporary[0] = '\0';
-        return strerror(errno);
+    sigset_t before;
+    accel_signals_hold(&before);
+    const bool made = accel_place_make(&folder->place, true, folder->temporary) == 0;
+    const char *trouble = made ? NULL : strerror(errno);
+    if (made) {
+        accel_unfinished_start(folder->temporary, true);
     }
-    const mode_t mask = umask(0);
-    umask(mask);
-    chmod(folder->temporary, 0777 & ~mask);
-    return NULL;
+    accel_signals_go_on(&before);
+    return trouble;
 }
 
 bool accel_folder_open(accel_folder *folder, const char *path, accel_error *error)
 {
-    *folder = (accel_folder){.temporary = ""};
-    size_t length = strlen(path);
-    while (length > 1 && path[length - 1] == '/') {
-        length--;
-    }
-    if (length == 0 || length >= sizeof folder->path) {
-        return fail("-o DIR", length == 0 ? "the name is empty" : "the name is too long", error);
-    }
-    memcpy(folder->path, path, length);
-    char text[200];
-    const char *trouble = why_not(folder->path, text);
+    char text[MOST_TEXT];
+    *folder = (accel_folder){.name = path};
+    const char *trouble = find_place(folder, text);
     trouble = trouble == NULL ? make_temporary(folder) : trouble;
-    if (trouble != NULL) {
-        return fail(path, trouble, error);
-    }
-    file_count = 0;
-    unfinished = folder->temporary;
-    watch();
-    return true;
+    return trouble == NULL || fail(folder, trouble, "nothing was written", error);
 }
 
-static void remember(const char *name)
+/* ------------------------------------------------------------------------ files ---- */
+
+FILE *accel_folder_write(accel_folder *folder, const char *name)
 {
-    for (int i = 0; i < file_count; i++) {
-        if (strcmp(files[i], name) == 0) {
-            return;
-        }
+    char path[ACCEL_MOST_PATH];
+    if (!join(path, folder->temporary, name)) {
+        return NULL;
     }
-    if (file_count < MOST_FILES) {
-        snprintf(files[file_count], sizeof files[0], "%.63s", name);
-        file_count = file_count + 1;
+    if (!accel_unfinished_name(name)) {
+        errno = EMFILE;
+        return NULL;
     }
+    const int descriptor = open(path, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    FILE *file = descriptor < 0 ? NULL : accel_sink_open(descriptor, &folder->trouble);
+    if (file == NULL && descriptor >= 0) {
+        close(descriptor);
+    }
+    return file;
 }
 
-FILE *accel_folder_file(accel_folder *folder, const char *name, const char *mode)
+FILE *accel_folder_read(accel_folder *folder, const char *name)
 {
-    char path[4096];
-    snprintf(path, sizeof path, "%s/%.64s", folder->temporary, name);
-    remember(name);
-    return fopen(path, mode);
+    char path[ACCEL_MOST_PATH];
+    return join(path, folder->temporary, name) ? fopen(path, "re") : NULL;
+}
+
+const char *accel_folder_close(accel_folder *folder, FILE *file)
+{
+    return accel_sink_close(file, &folder->trouble) ? NULL : strerror(folder->trouble);
 }
 
 void accel_folder_remove(accel_folder *folder, const char *name)
 {
-    char path[4096];
-    snprintf(path, sizeof path, "%s/%.64s", folder->temporary, name);
-    unlink(path);
-}
-
-void accel_folder_list(FILE *page)
-{
-    fputs(list, page);
-    for (int i = 0; i < file_count; i++) {
-        fprintf(page, "%s ", files[i]);
+    char path[ACCEL_MOST_PATH];
+    if (join(path, folder->temporary, name)) {
+        unlink(path);
     }
-    fputs("-->\n", page);
 }
 
-/* The former report, now under the temporary name. */
-static void remove_former(const char *path)
+static bool is_there(const accel_folder *folder, const char *name)
 {
-    DIR *folder = opendir(path);
-    char *former = former_files(path);
-    for (const struct dirent *e = folder == NULL ? NULL : readdir(folder); e != NULL;
-         e = readdir(folder)) {
-        if (is_former(former, e->d_name)) {
-            unlinkat(dirfd(folder), e->d_name, 0);
+    char path[ACCEL_MOST_PATH];
+    return join(path, folder->temporary, name) && access(path, F_OK) == 0;
+}
+
+void accel_folder_list(const accel_folder *folder, FILE *to)
+{
+    fputs(list, to);
+    for (int i = 0; accel_unfinished_file(i) != NULL; i++) {
+        if (is_there(folder, accel_unfinished_file(i))) {
+            fprintf(to, "%s ", accel_unfinished_file(i));
         }
     }
-    free(former);
-    if (folder != NULL) {
-        closedir(folder);
+    fputs("-->\n", to);
+}
+
+/* ----------------------------------------------------------------------- commit ---- */
+
+/* Is all of it on disk? */
+static bool synchronise(const accel_folder *folder)
+{
+    bool fine = true;
+    for (int i = 0; fine && accel_unfinished_file(i) != NULL; i++) {
+        char path[ACCEL_MOST_PATH];
+        if (is_there(folder, accel_unfinished_file(i))) {
+            const int file = join(path, folder->temporary, accel_unfinished_file(i))
+                                 ? open(path, O_WRONLY | O_CLOEXEC)
+                                 : -1;
+            fine = file >= 0 && (fsync(file) == 0 || errno == EINVAL);
+            fine = file >= 0 && close(file) == 0 && fine;
+        }
     }
-    rmdir(path);
+    return fine;
+}
+
+/* Moves one file in, with mode and owner of the one that it replaces. */
+static bool move_in(const accel_folder *folder, const char *name)
+{
+    char from[ACCEL_MOST_PATH], to[ACCEL_MOST_PATH];
+    struct stat old;
+    if (!join(from, folder->temporary, name) || !join(to, folder->place.path, name)) {
+        return false;
+    }
+    if (lstat(to, &old) == 0) {
+        const int file = open(from, O_WRONLY | O_CLOEXEC);
+        if (file >= 0) {
+            accel_place_dress(file, to, &old);
+            close(file);
+        }
+    }
+    return rename(from, to) == 0;
+}
+
+/* The page last. False: errno says why, and only *moved of them are in. */
+static bool move_all_in(const accel_folder *folder, int *moved)
+{
+    *moved = 0;
+    for (int i = 0; accel_unfinished_file(i) != NULL; i++) {
+        const char *name = accel_unfinished_file(i);
+        if (strcmp(name, page) != 0 && is_there(folder, name)) {
+            if (!move_in(folder, name)) {
+                return false;
+            }
+            ++*moved;
+        }
+    }
+    return move_in(folder, page);
+}
+
+/* Removes what the former report had and this one has not. */
+static void remove_former(const accel_folder *folder, const char *former)
+{
+    DIR *at = opendir(folder->place.path);
+    for (const struct dirent *e = at == NULL ? NULL : readdir(at); e != NULL; e = readdir(at)) {
+        bool is_new = false;
+        for (int i = 0; accel_unfinished_file(i) != NULL; i++) {
+            is_new = is_new || strcmp(accel_unfinished_file(i), e->d_name) == 0;
+        }
+        if (!is_new && is_former(former, dirfd(at), e->d_name)) {
+            unlinkat(dirfd(at), e->d_name, 0);
+        }
+    }
+    if (at != NULL) {
+        closedir(at);
+    }
+}
+
+/* Into the folder that is there. */
+static bool replace(const accel_folder *folder, accel_error *error)
+{
+    char text[MOST_TEXT];
+    const char *own = strrchr(folder->temporary, '/');
+    const char *trouble = why_not(folder->place.path, own == NULL ? "" : own + 1, text);
+    if (trouble != NULL) {
+        return fail(folder, trouble, "nothing was written", error);
+    }
+    char *former = former_files(folder->place.path);
+    int moved;
+    const bool fine = move_all_in(folder, &moved);
+    if (!fine) {
+        fail(folder, strerror(errno),
+             moved == 0 ? "nothing was written" : "it holds files of two reports", error);
+    } else if (former != NULL) {
+        remove_former(folder, former);
+    }
+    free(former);
+    return fine;
+}
+
+static bool place(const accel_folder *folder, accel_error *error)
+{
+    struct stat status;
+    if (lstat(folder->place.path, &status) == 0) {
+        return replace(folder, error);
+    }
+    if (rename(folder->temporary, folder->place.path) != 0) {
+        return fail(folder, strerror(errno), "nothing was written", error);
+    }
+    accel_unfinished_done();
+    return true;
 }
 
 bool accel_folder_commit(accel_folder *folder, accel_error *error)
 {
-    char text[200];
-    const char *trouble = why_not(folder->path, text);
-    if (trouble == NULL && rename(folder->temporary, folder->path) != 0) {
-        /* over nothing or an empty folder; a former report changes places with the new one */
-        if ((errno == ENOTEMPTY || errno == EEXIST) &&
-            renameat2(AT_FDCWD, folder->temporary, AT_FDCWD, folder->path, RENAME_EXCHANGE) == 0) {
-            unfinished = NULL;
-            remove_former(folder->temporary);
-        } else {
-            trouble = strerror(errno);
-        }
-    }
-    if (trouble != NULL) {
-        fail(folder->path, trouble, error);
+    sigset_t before;
+    if (!synchronise(folder)) {
+        fail(folder, strerror(errno), "nothing was written", error);
         accel_folder_abandon(folder);
         return false;
     }
-    unfinished = NULL;
-    return true;
+    accel_signals_hold(&before);
+    const bool fine = place(folder, error);
+    accel_folder_abandon(folder);
+    accel_signals_go_on(&before);
+    return fine;
 }
 
 void accel_folder_abandon(accel_folder *folder)
 {
-    remove_unfinished();
+    accel_unfinished_remove();
     folder->temporary[0] = '\0';
 }

@@ -6,7 +6,6 @@
 
 #include "machine.h"
 
-#include <errno.h>
 #include <stdarg.h>
 #include <string.h>
 #include <time.h>
@@ -75,15 +74,13 @@ void accel_page_open(accel_reporting *r)
 bool accel_page_close(accel_reporting *r)
 {
     fprintf(r->page, "</body></html>\n");
-    accel_folder_list(r->page);
-    const bool fine = !ferror(r->page);
-    const bool closed = fclose(r->page) == 0;
+    accel_folder_list(&r->folder, r->page);
+    const char *trouble = accel_folder_close(&r->folder, r->page);
     r->page = NULL;
-    if (!fine || !closed) {
-        accel_complain(r->command, "cannot write index.html: %s; nothing was written",
-                       errno == 0 ? "the device took no more" : strerror(errno));
+    if (trouble != NULL) {
+        accel_complain(r->command, "cannot write index.html: %s; nothing was written", trouble);
     }
-    return fine && closed;
+    return trouble == NULL;
 }
 
 void accel_page_title(accel_reporting *r, const char *id, const char *title)
@@ -120,7 +117,7 @@ bool accel_page_plot(accel_reporting *r, const char *name, const char *csv, cons
 {
     char file[64];
     snprintf(file, sizeof file, "%s.svg", name);
-    FILE *svg = accel_folder_file(&r->folder, file, "r");
+    FILE *svg = accel_folder_read(&r->folder, file);
     fprintf(r->page, "<figure id=\"%s\">\n", name);
     const bool fine = svg != NULL && copy_svg(r, svg);
     if (svg != NULL) {

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Plots by gnuplot, which runs in the report's folder and reads its program from a pipe.
+ * Plots by gnuplot, which runs in the report's folder to read the figures there. Its program, the
+ * plot and what it complains of are in memory: of the files of the folder none is written by
+ * others, so that each knows what became of it.
  *
  * Colours: Okabe and Ito's, which the colour-blind tell apart; each kind has a shape of its own
  * too.
@@ -12,47 +14,51 @@
 #include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-/* What gnuplot says of a mistake goes there, in the report's folder. */
-static const char complaints[] = "gnuplot.txt";
+/* Standard input, output and error of gnuplot. */
+typedef struct streams {
+    int of[3];
+} streams;
 
-/* A plot beyond it is left as it is. */
-enum { MOST_BYTES = 4 << 20 };
-
-/* Never returns. */
-static _Noreturn void run_gnuplot(const char *folder, const char *output, int input)
+static _Noreturn void run_gnuplot(const char *folder, const streams *s, const char *argument)
 {
     if (folder != NULL && chdir(folder) != 0) {
         _exit(126);
     }
-    const int out = open(output, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
-    if (input < 0 || out < 0 || dup2(input, STDIN_FILENO) < 0 || dup2(out, STDOUT_FILENO) < 0 ||
-        dup2(out, STDERR_FILENO) < 0) {
-        _exit(126);
+    for (int i = 0; i < 3; i++) {
+        if (dup2(s->of[i], i) < 0) {
+            _exit(126);
+        }
     }
-    execlp("gnuplot", "gnuplot", "--default-settings", input > 0 ? "-" : "--version", (char *)NULL);
+    execlp("gnuplot", "gnuplot", "--default-settings", argument, (char *)NULL);
     _exit(127);
 }
 
-static int exit_code(pid_t child)
+/* Runs it to its end; its exit code. */
+static int gnuplot(const char *folder, const streams *s, const char *argument)
 {
-    int status = 0;
-    while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+    fflush(NULL);
+    const pid_t child = fork();
+    if (child == 0) {
+        run_gnuplot(folder, s, argument);
     }
-    return WIFEXITED(status) ? WEXITSTATUS(status) : 128;
+    int status = 0;
+    while (child > 0 && waitpid(child, &status, 0) < 0 && errno == EINTR) {
+    }
+    return child > 0 && WIFEXITED(status) ? WEXITSTATUS(status) : 128;
 }
 
 const char *accel_plot_missing(void)
 {
-    const pid_t child = fork();
-    if (child == 0) {
-        run_gnuplot(NULL, "/dev/null", STDIN_FILENO);
-    }
-    return child > 0 && exit_code(child) == 0
-               ? NULL
-               : "gnuplot cannot be run, which draws the plots (Debian: gnuplot-nox)";
+    const int nowhere = open("/dev/null", O_RDWR | O_CLOEXEC);
+    const streams s = {{nowhere, nowhere, nowhere}};
+    const bool fine = nowhere >= 0 && gnuplot(NULL, &s, "--version") == 0;
+    close(nowhere);
+    return fine ? NULL : "gnuplot cannot be run, which draws the plots (Debian: gnuplot-nox)";
 }
 
 static void write_style(const accel_plot *plot, int width, int height)
@@ -60,7 +66,6 @@ static void write_style(const accel_plot *plot, int width, int height)
     fprintf(plot->script,
             "set terminal svg size %d,%d dynamic enhanced font 'Helvetica,Arial,sans-serif,13' "
             "background rgb 'white'\n"
-            "set output '%s.svg'\n"
             "set encoding utf8\n"
             "set datafile separator ','\n"
             "set datafile missing NaN\n"
@@ -71,97 +76,100 @@ static void write_style(const accel_plot *plot, int width, int height)
             "set pointsize 0.75\n"
             "set samples 2\n"
             "none = '#888888'\n",
-            width, height, plot->name);
+            width, height);
 }
 
 bool accel_plot_open(accel_reporting *r, accel_plot *plot, const char *name, int width, int height)
 {
-    int ends[2];
-    *plot = (accel_plot){.child = -1};
+    *plot = (accel_plot){.script = NULL};
     snprintf(plot->name, sizeof plot->name, "%s", name);
-    char file[48];
-    snprintf(file, sizeof file, "%s.svg", name);
-    FILE *svg = accel_folder_file(&r->folder, file, "w");
-    FILE *log = accel_folder_file(&r->folder, complaints, "w");
-    if (svg != NULL) {
-        fclose(svg);
-    }
-    if (log != NULL) {
-        fclose(log);
-    }
-    if (svg == NULL || log == NULL || pipe2(ends, O_CLOEXEC) != 0) {
-        accel_complain(r->command, "cannot write %s: %s; nothing was written", file,
-                       strerror(errno));
-        return false;
-    }
-    fflush(NULL);
-    plot->child = fork();
-    if (plot->child == 0) {
-        run_gnuplot(r->folder.temporary, complaints, ends[0]);
-    }
-    close(ends[0]);
-    plot->script = plot->child > 0 ? fdopen(ends[1], "w") : NULL;
+    const int memory = memfd_create("script", MFD_CLOEXEC);
+    plot->script = memory < 0 ? NULL : fdopen(memory, "w+");
     if (plot->script == NULL) {
-        close(ends[1]);
-        accel_complain(r->command, "no process for gnuplot: %s; nothing was written",
+        accel_complain(r->command, "no memory for %s.svg: %s; nothing was written", name,
                        strerror(errno));
+        close(memory);
         return false;
     }
     write_style(plot, width, height);
     return true;
 }
 
-static void first_complaint(accel_reporting *r, char *line, int size)
+/* All that is in a file of memory, ended by a zero; NULL where that does not fit. To be freed. */
+static char *read_memory(int memory)
 {
-    FILE *file = accel_folder_file(&r->folder, complaints, "r");
-    snprintf(line, (size_t)size, "no reason given");
-    while (file != NULL && fgets(line, size, file) != NULL &&
-           (strstr(line, "line ") == NULL && strstr(line, "rror") == NULL)) {
+    struct stat status;
+    char *text = fstat(memory, &status) == 0 ? calloc((size_t)status.st_size + 1, 1) : NULL;
+    for (off_t at = 0; text != NULL && at < status.st_size;) {
+        const ssize_t got = pread(memory, text + at, (size_t)(status.st_size - at), at);
+        if (got <= 0 && errno != EINTR) {
+            free(text);
+            return NULL;
+        }
+        at += got > 0 ? got : 0;
     }
-    line[strcspn(line, "\n")] = '\0';
-    if (file != NULL) {
-        fclose(file);
+    return text;
+}
+
+/* The first line that tells of a mistake. */
+static void first_complaint(char *text, char line[300])
+{
+    snprintf(line, 300, "no reason given");
+    char *rest = text;
+    for (char *at = text; at != NULL && (at = strsep(&rest, "\n")) != NULL;) {
+        if (strstr(at, "line ") != NULL || strstr(at, "rror") != NULL) {
+            snprintf(line, 300, "%.290s", at);
+            return;
+        }
     }
 }
 
-/* Reads the plot back and writes it smaller. */
-static bool shrink(accel_reporting *r, const accel_plot *plot)
+static bool is_whole(const char *svg)
+{
+    const char *end = strstr(svg, "</svg>");
+    return end != NULL && end[6 + strspn(end + 6, "\n")] == '\0';
+}
+
+/* Writes the plot, smaller than gnuplot made it. */
+static bool write_svg(accel_reporting *r, const accel_plot *plot, char *svg)
 {
     char name[48];
-    char *text = calloc(MOST_BYTES, 1);
     snprintf(name, sizeof name, "%s.svg", plot->name);
-    FILE *file = accel_folder_file(&r->folder, name, "r");
-    const size_t read = file != NULL && text != NULL ? fread(text, 1, MOST_BYTES - 1, file) : 0;
+    accel_svg_shrink(svg);
+    FILE *file = accel_folder_write(&r->folder, name);
+    const char *trouble = strerror(errno);
     if (file != NULL) {
-        fclose(file);
+        fputs(svg, file);
+        trouble = accel_folder_close(&r->folder, file);
     }
-    bool fine = read > 0;
-    if (fine && read < MOST_BYTES - 1) {
-        accel_svg_shrink(text);
-        file = accel_folder_file(&r->folder, name, "w");
-        fine = file != NULL && fputs(text, file) >= 0;
-        fine = file != NULL && fclose(file) == 0 && fine;
+    if (trouble != NULL) {
+        accel_complain(r->command, "cannot write %s: %s; nothing was written", name, trouble);
     }
-    free(text);
-    if (!fine) {
-        accel_complain(r->command, "cannot write %s; nothing was written", name);
-    }
-    return fine;
+    return trouble == NULL;
 }
 
 bool accel_plot_close(accel_reporting *r, accel_plot *plot)
 {
-    const bool sent = fclose(plot->script) == 0;
-    const int code = exit_code(plot->child);
-    if (!sent || code != 0) {
+    const streams s = {{fileno(plot->script), memfd_create("plot", MFD_CLOEXEC),
+                        memfd_create("complaints", MFD_CLOEXEC)}};
+    bool fine = fflush(plot->script) == 0 && lseek(s.of[0], 0, SEEK_SET) == 0 &&
+                gnuplot(r->folder.temporary, &s, "-") == 0;
+    char *svg = read_memory(s.of[1]), *complaints = read_memory(s.of[2]);
+    fine = fine && svg != NULL && is_whole(svg);
+    if (fine) {
+        fine = write_svg(r, plot, svg);
+    } else {
         char line[300];
-        first_complaint(r, line, sizeof line);
+        first_complaint(complaints, line);
         accel_complain(r->command, "gnuplot failed at %s.svg: %s; nothing was written", plot->name,
                        line);
-        return false;
     }
-    accel_folder_remove(&r->folder, complaints);
-    return shrink(r, plot);
+    free(svg);
+    free(complaints);
+    fclose(plot->script);
+    close(s.of[1]);
+    close(s.of[2]);
+    return fine;
 }
 
 /* Full for a kind as it comes, hollow for another form of it. */

@@ -55,12 +55,12 @@ static bool run(accel_reporting *r, const char *argument)
 const char *accel_povray_version(accel_reporting *r)
 {
     static char line[120];
-    FILE *log = accel_folder_file(&r->folder, log_name, "w");
+    FILE *log = accel_folder_write(&r->folder, log_name);
     if (log != NULL) {
         fclose(log);
     }
     const bool fine = run(r, "--version");
-    log = accel_folder_file(&r->folder, log_name, "r");
+    log = accel_folder_read(&r->folder, log_name);
     line[0] = '\0';
     while (log != NULL && fgets(line, sizeof line, log) != NULL &&
            strncmp(line, "POV-Ray", 7) != 0) {
@@ -184,7 +184,7 @@ static const char macro[] =
 
 static bool read_answer(accel_reporting *r, accel_povray *out)
 {
-    FILE *f = accel_folder_file(&r->folder, answer_name, "r");
+    FILE *f = accel_folder_read(&r->folder, answer_name);
     const bool fine =
         f != NULL && fscanf(f, "%zu %zu %zu", &out->lost, &out->false_hits, &out->off) == 3;
     if (f != NULL) {
@@ -196,8 +196,8 @@ static bool read_answer(accel_reporting *r, accel_povray *out)
 bool accel_povray_ask(accel_reporting *r, const accel_exam *e, size_t most, accel_povray *out)
 {
     *out = (accel_povray){.ran = false};
-    FILE *f = accel_folder_file(&r->folder, scene_name, "w");
-    FILE *answer = accel_folder_file(&r->folder, answer_name, "w");
+    FILE *f = accel_folder_write(&r->folder, scene_name);
+    FILE *answer = accel_folder_write(&r->folder, answer_name);
     if (answer != NULL) {
         fclose(answer);
     }
@@ -212,11 +212,10 @@ bool accel_povray_ask(accel_reporting *r, const accel_exam *e, size_t most, acce
             "#fopen F \"%s\" write\n#write (F, Lost, \" \", Found, \" \", Off, \"\\n\")\n"
             "#fclose F\n",
             answer_name);
-    const bool written = !ferror(f);
-    const bool closed = fclose(f) == 0;
+    const bool written = accel_folder_close(&r->folder, f) == NULL;
     char argument[64];
     snprintf(argument, sizeof argument, "+I%s", scene_name);
-    out->ran = written && closed && out->asked > 0 && run(r, argument) && read_answer(r, out);
+    out->ran = written && out->asked > 0 && run(r, argument) && read_answer(r, out);
     accel_folder_remove(&r->folder, scene_name);
     accel_folder_remove(&r->folder, answer_name);
     accel_folder_remove(&r->folder, log_name);

@@ -63,9 +63,12 @@ static bool read_option(const accel_kind_info *info, const char *text, size_t le
         i++;
     }
     if (i == info->option_count) {
+        const char *hint = info->option_count == 0 ? ", it has none"
+                           : nearest == NULL       ? "; 'accel kinds' lists them"
+                                                   : "; nearest is ";
         snprintf(error->text, sizeof error->text,
-                 "scene %s: unknown key '%.*s'%s%s; nothing was made", info->name, (int)key_length,
-                 text, nearest == NULL ? ", it has none" : "; nearest is ",
+                 "scene %s: unknown key '%.*s'%s%s; nothing was made", info->name,
+                 (int)(key_length < 60 ? key_length : 60), text, hint,
                  nearest == NULL ? "" : nearest);
         return false;
     }
@@ -147,9 +150,10 @@ static void say_unknown(const char *name, size_t length, accel_error *error)
         accel_nearest_offer(name, length, generators[i]->info.name, &nearest, &distance);
     }
     snprintf(error->text, sizeof error->text,
-             "scene '%.*s' is neither a file nor a built-in scene; nearest is %s; "
-             "nothing was loaded",
-             (int)(length > 100 ? 100 : length), name, nearest);
+             "scene '%.*s' is neither a file nor a built-in scene; %s%s; nothing was loaded",
+             (int)(length > 100 ? 100 : length), name,
+             nearest == NULL ? "'accel kinds' lists those" : "nearest is ",
+             nearest == NULL ? "" : nearest);
 }
 
 /* What a SCENE means. */

@@ -46,10 +46,10 @@ bool accel_scene_names_add(accel_scene_names *names, const char *name, const acc
     return true;
 }
 
-int accel_end_output(accel_output *output, int code, const accel_command *command)
+int accel_end_output(accel_output *output, int code, int worst, const accel_command *command)
 {
     accel_error error;
-    if (code != ACCEL_EXIT_FINE) {
+    if (code > worst) {
         accel_output_abandon(output);
     } else if (!accel_output_commit(output, &error)) {
         return accel_complain(command, "%s", error.text);

@@ -39,9 +39,9 @@ typedef struct accel_scene_names {
 bool accel_scene_names_add(accel_scene_names *names, const char *name,
                            const accel_command *command);
 
-/* Puts a file in place after a run that ended with `code`, or removes it where that is not
- * ACCEL_EXIT_FINE. Returns the exit code. */
-int accel_end_output(accel_output *output, int code, const accel_command *command);
+/* Puts a file in place after a run that ended with `code`, or removes it where that is worse than
+ * `worst`. Returns the exit code. */
+int accel_end_output(accel_output *output, int code, int worst, const accel_command *command);
 
 /* Loads SCENE with progress, or complains and returns false. */
 bool accel_open_scene(accel_loaded *loaded, const char *name, const accel_command *command,

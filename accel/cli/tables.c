@@ -24,7 +24,7 @@ static const accel_flag flags[] = {
                       "photons for each light (default: 200000, 1000000, 200000; quick: 20000)"},
     [FLAG_REPEATS] = {"repeats", 0, "N", "turns of each structure (default: 11; quick: 3)"},
     [FLAG_THREADS] = {"threads", 't', "T", "default: 1"},
-    [FLAG_CSV] = {"csv", 0, "FILE", "write all figures there as well"},
+    [FLAG_CSV] = {"csv", 0, "FILE", "write all figures there as well; " ACCEL_DASH},
 };
 
 /* Depth and leaf of the paper, then each kind as it comes, then each with its best option. */
@@ -212,12 +212,7 @@ static int run_into_file(const accel_command *command, accel_table_request *r)
     r->csv = output.file;
     fprintf(r->csv, "scene,config,seconds,quartile1,quartile3,build_seconds,paper_seconds,rays,"
                     "hits,nodes_visited,tests,nodes,leaves,references,bytes,depth\n");
-    const int code = run_tables(command, r);
-    if (code == ACCEL_EXIT_BAD) {
-        accel_output_abandon(&output);
-        return code;
-    }
-    return accel_output_commit(&output, &error) ? code : accel_complain(command, "%s", error.text);
+    return accel_end_output(&output, run_tables(command, r), ACCEL_EXIT_DIFFERENT, command);
 }
 
 static bool take(accel_arguments *a, int flag, void *request)

@@ -17,7 +17,7 @@ enum { FLAG_CONFIG, FLAG_OUTPUT, FLAG_SIZE, FLAG_CAMERA, FLAG_RAYS, FLAG_THREADS
 static const accel_flag flags[] = {
     {"accelerator", 'a', "CONFIG", "structure to trace with (default: " ACCEL_DEFAULT_CONFIG ")"},
     {"output", 'o', "FILE",
-     "file to write; its name ends in .exr or .png, with --rays in anything"},
+     "file to write; its name ends in .exr or .png, with --rays in anything, and\n" ACCEL_DASH},
     {"size", 0, "WxH", "pixels (default 640x480)"},
     {"camera", 0, "E:A:F",
      "eye x,y,z : point x,y,z in the middle of the image : full horizontal field of\n"
@@ -32,19 +32,13 @@ typedef struct request {
     uint64_t threads;
 } request;
 
-static bool ends_with(const char *path, const char *extension)
-{
-    const size_t length = strlen(path), ending = strlen(extension);
-    return length > ending && strcmp(path + length - ending, extension) == 0;
-}
-
 static bool write_image(accel_tracing *tracing, const accel_camera *camera, accel_output *output,
                         accel_error *error)
 {
     error->status = ACCEL_NO_MEMORY;
     snprintf(error->text, sizeof error->text, "out of memory; nothing was written");
     bool fine = false;
-    if (ends_with(output->path, ".png")) {
+    if (accel_ends_with(output->path, ".png")) {
         unsigned char *pixels = accel_trace_picture(tracing, camera);
         fine =
             pixels != NULL && accel_write_png(pixels, camera->width, camera->height, output, error);
@@ -59,29 +53,23 @@ static bool write_image(accel_tracing *tracing, const accel_camera *camera, acce
     return fine;
 }
 
-/* The output is open: it is put in place or removed. */
 static int fill_output(const accel_command *command, const request *request, accel_tracing *tracing,
                        accel_output *output)
 {
     accel_camera camera;
     if (request->rays == NULL &&
         !accel_camera_argument(command, request->size, request->camera, tracing->scene, &camera)) {
-        accel_output_abandon(output);
         return ACCEL_EXIT_BAD;
     }
     accel_error error;
     const bool fine = request->rays == NULL
                           ? write_image(tracing, &camera, output, &error)
                           : accel_trace_text(tracing, request->rays, output->file, &error);
-    if (!fine) {
-        accel_output_abandon(output);
-        return accel_complain(command, "%s", error.text);
-    }
-    return accel_output_commit(output, &error) ? ACCEL_EXIT_FINE
-                                               : accel_complain(command, "%s", error.text);
+    return fine ? ACCEL_EXIT_FINE : accel_complain(command, "%s", error.text);
 }
 
-static int load_and_trace(const accel_command *command, const request *request, bool quiet)
+static int load_and_trace(const accel_command *command, const request *request, bool quiet,
+                          accel_output *output)
 {
     accel_tracing tracing = {.threads = request->threads == 0 ? accel_crew_size()
                                                               : (unsigned)request->threads,
@@ -90,20 +78,24 @@ static int load_and_trace(const accel_command *command, const request *request, 
     if (!accel_open_scene(&loaded, request->scene, command, &tracing.progress)) {
         return ACCEL_EXIT_BAD;
     }
-    int code = ACCEL_EXIT_BAD;
-    accel_output output;
-    accel_error error;
     accel *a = accel_open_structure(&loaded, request->config, command, &tracing.progress);
     tracing.scene = &loaded.scene;
     tracing.structure = a;
-    if (a != NULL && accel_output_open(&output, request->output, &error)) {
-        code = fill_output(command, request, &tracing, &output);
-    } else if (a != NULL) {
-        accel_complain(command, "%s", error.text);
-    }
+    const int code = a == NULL ? ACCEL_EXIT_BAD : fill_output(command, request, &tracing, output);
     accel_free(a);
     accel_unload_scene(&loaded);
     return code;
+}
+
+static int trace_into_file(const accel_command *command, const request *request, bool quiet)
+{
+    accel_output output;
+    accel_error error;
+    if (!accel_output_open(&output, request->output, &error)) {
+        return accel_complain(command, "%s", error.text);
+    }
+    return accel_end_output(&output, load_and_trace(command, request, quiet, &output),
+                            ACCEL_EXIT_FINE, command);
 }
 
 static int check_request(const accel_command *command, const request *request, bool quiet)
@@ -118,14 +110,14 @@ static int check_request(const accel_command *command, const request *request, b
                               "nothing was written",
                               request->camera != NULL ? "--camera" : "--size");
     }
-    if (request->rays == NULL && !ends_with(request->output, ".exr") &&
-        !ends_with(request->output, ".png")) {
+    if (request->rays == NULL && !accel_ends_with(request->output, ".exr") &&
+        !accel_ends_with(request->output, ".png")) {
         return accel_complain(command,
                               "-o '%.100s' ends in neither .exr nor .png; nothing was "
                               "written",
                               request->output);
     }
-    return load_and_trace(command, request, quiet);
+    return trace_into_file(command, request, quiet);
 }
 
 static bool take(accel_arguments *arguments, int found, void *user)

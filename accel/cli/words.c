@@ -9,12 +9,24 @@
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 enum { LONGEST_WORD = 40, LONGEST_NUMBER = 60 };
 
 static size_t least(size_t a, size_t b)
 {
     return a < b ? a : b;
+}
+
+bool accel_ends_with(const char *name, const char *ending)
+{
+    const size_t length = strlen(name), own = strlen(ending);
+    return length > own && strcmp(name + length - own, ending) == 0;
+}
+
+static bool same_letter(char a, char b)
+{
+    return tolower((unsigned char)a) == tolower((unsigned char)b);
 }
 
 /* Insertions, deletions and replacements that turn a into b. */
@@ -28,7 +40,7 @@ static size_t edit_distance(const char *a, size_t a_length, const char *b, size_
         size_t diagonal = row[0];
         row[0] = i;
         for (size_t j = 1; j <= b_length; j++) {
-            const size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+            const size_t replaced = diagonal + (same_letter(a[i - 1], b[j - 1]) ? 0 : 1);
             diagonal = row[j];
             row[j] = least(replaced, least(row[j], row[j - 1]) + 1);
         }
@@ -40,11 +52,11 @@ void accel_nearest_offer(const char *typed, size_t length, const char *word, con
                          size_t *distance)
 {
     const size_t word_length = strlen(word);
-    const bool begun = length > 0 && length < word_length && memcmp(typed, word, length) == 0;
+    const bool begun = length > 0 && length < word_length && strncasecmp(typed, word, length) == 0;
     const size_t here = begun ? 0
                               : edit_distance(typed, least(length, LONGEST_WORD), word,
                                               least(word_length, LONGEST_WORD));
-    if (here < *distance) {
+    if (here < *distance && here <= (least(length, LONGEST_WORD) + 2) / 3) {
         *distance = here;
         *best = word;
     }

@@ -9,8 +9,12 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Finds the word nearest to the first `length` bytes of `typed`; one that begins with them is
- * nearest of all. Start with *best NULL and *distance SIZE_MAX and offer the legal words. */
+/* Does a name end with `ending`, and is there more of it? */
+bool accel_ends_with(const char *name, const char *ending);
+
+/* Finds the word nearest to the first `length` bytes of `typed`, upper or lower case; one that
+ * begins with them is nearest of all, and one of which more than a third is wrong is not near.
+ * Start with *best NULL and *distance SIZE_MAX and offer the legal words. */
 void accel_nearest_offer(const char *typed, size_t length, const char *word, const char **best,
                          size_t *distance);
 

@@ -34,7 +34,13 @@ static int shown(struct word w)
     return (int)error_cut(w.at, w.size, MOST);
 }
 
-/* Levenshtein's distance between a word and a text, both cut to 31 characters. */
+static char lower(char c)
+{
+    return c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c;
+}
+
+/* Levenshtein's distance between a word in upper or lower case and a text in lower case, both cut to
+ * 31 characters. */
 static size_t distance(struct word w, const char *text)
 {
     size_t row[32], n = strlen(text) < 31 ? strlen(text) : 31, m = w.size < 31 ? w.size : 31;
@@ -44,7 +50,7 @@ static size_t distance(struct word w, const char *text)
         size_t diagonal = row[0];
         row[0] = i;
         for (size_t j = 1; j <= n; j++) {
-            const size_t replaced = diagonal + (w.at[i - 1] != text[j - 1]);
+            const size_t replaced = diagonal + (lower(w.at[i - 1]) != text[j - 1]);
             const size_t removed = row[j] + 1, added = row[j - 1] + 1;
             diagonal = row[j];
             row[j] = replaced < removed ? replaced : removed;
@@ -57,7 +63,7 @@ static size_t distance(struct word w, const char *text)
 /* The legal words of one place, gathered for a complaint. */
 struct choice {
     struct word wrong;   /* what was found */
-    const char *nearest; /* legal word that is most like it */
+    const char *nearest; /* legal word that is most like it, or NULL: none is near */
     size_t best;         /* its distance */
     char list[MAX_LIST]; /* all of them, with commas */
 };
@@ -65,25 +71,24 @@ struct choice {
 static void choice_add(struct choice *c, const char *text)
 {
     const size_t d = distance(c->wrong, text), used = strlen(c->list);
-    if (!c->nearest || d < c->best) {
+    const size_t compared = c->wrong.size < 31 ? c->wrong.size : 31;
+    if (d <= (compared + 2) / 3 && (!c->nearest || d < c->best)) {
         c->nearest = text;
         c->best = d;
     }
     snprintf(c->list + used, sizeof c->list - used, "%s%s", used ? ", " : "", text);
 }
 
-/* "..., allowed are a, b, c; did you mean b?" */
+/* "..., allowed are a, b, c; did you mean 'b'?" */
 static void complain(accel_error *error, const char *what, const struct choice *c)
 {
-    if (!c->nearest) {
+    if (c->nearest)
         error_set(error, ACCEL_BAD_CONFIG,
-                  "config: %s '%.*s', but none is allowed; nothing was built", what,
-                  shown(c->wrong), c->wrong.at);
-        return;
-    }
-    error_set(error, ACCEL_BAD_CONFIG,
-              "config: %s '%.*s', allowed are %s; did you mean '%s'? Nothing was built", what,
-              shown(c->wrong), c->wrong.at, c->list, c->nearest);
+                  "config: %s '%.*s', allowed are %s; did you mean '%s'? Nothing was built", what,
+                  shown(c->wrong), c->wrong.at, c->list, c->nearest);
+    else
+        error_set(error, ACCEL_BAD_CONFIG, "config: %s '%.*s', %s%s; nothing was built", what,
+                  shown(c->wrong), c->wrong.at, *c->list ? "allowed are " : "but none is allowed", c->list);
 }
 
 static const struct accel_kind *find_kind(struct word name, accel_error *error)

@@ -82,8 +82,8 @@ complains "holds no triangle" info lines.obj
 complains "No such file or directory" check missing.ply
 complains "No such file or directory" trace missing.ply -o x.exr
 complains "PLY header cannot be read in line" trace count.ply -o x.exr
-complains "Nothing was built" check one -a nokind
-complains "Nothing was built" trace one -o x.exr -a nokind
+complains "othing was built" check one -a nokind
+complains "othing was built" trace one -o x.exr -a nokind
 
 # A complaint is one line whatever a name or a file holds.
 complains "No such file or directory" info $'new\nline\e[2J.ply'

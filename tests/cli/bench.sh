@@ -33,6 +33,10 @@ expect 0 bench --csv one --count 10 --repeats 1 -a linear
 [ "$(grep -cv '^#' out)" = 5 ] || fail "bare --csv prints more than figures: $(head -c 300 out)"
 expect 0 bench one --count 10 --repeats 1 -a linear --csv=figures.txt
 [ "$(grep -c '^"one","linear",' figures.txt)" = 4 ] || fail "--csv=FILE writes no figures"
+expect 0 bench one --count 10 --repeats 1 -a linear --csv -
+[ "$(grep -cv '^#' out)" = 5 ] || fail "--csv - prints more than figures: $(head -c 300 out)"
+complains "'figures.txt' behind --csv does not end in .csv" bench one --csv figures.txt
+complains "say --csv=new.txt" bench one --csv new.txt
 expect 0 bench one --count 10 --repeats 1 --pilot 0
 complains "--pilot" bench one --pilot x
 

@@ -24,10 +24,9 @@ cat >rays.txt <<'RAYS'
 0,0,4,0.75,0.25,-1
 RAYS
 expect 0 trace one --rays rays.txt -o hits.txt
-echo old >target.txt && ln -s target.txt link.txt && ln -s nothing dangling.txt
+echo old >target.txt && ln -s target.txt link.txt
 expect 0 trace one --rays rays.txt -o link.txt
 [ -L link.txt ] && cmp -s hits.txt target.txt || fail "a link is not followed"
-complains "a link that leads to no file" trace one --rays rays.txt -o dangling.txt
 complains "--camera does not go with it" trace one --rays rays.txt -o x.txt --camera 0,0,5:0,0,0:40
 complains "--size does not go with it" trace one --rays rays.txt -o x.txt --size 8x8
 [ "$(cat hits.txt)" = "miss
@@ -97,7 +96,7 @@ complains "nothing was loaded" diff wide.exr four.exr
 complains "cannot write missing/x.exr" trace one -o missing/x.exr
 mkdir folder.exr && complains "it is a directory" trace one -o folder.exr
 ln -s /dev/full full.exr && complains "No space left on device" trace one -o full.exr
-ln -s /dev/full full.png && complains "nothing was written" trace one -o full.png
+ln -s /dev/full full.png && complains "No space left on device" trace one -o full.png
 complains "No space left on device" trace one --rays rays.txt -o /dev/full
 (
     ulimit -f 8

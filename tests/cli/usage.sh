@@ -19,6 +19,21 @@ complains "nearest is check" chekc
 complains "unknown option -z" info -z
 complains "needs a value: CONFIG" info one -a
 complains "takes no value" info one --quiet=1
+
+# What is far from every legal word is not likened to one.
+for words in xyzzy "info xyzzy" "info one --xyzzy" "info one -a xyzzy" "info cubes:xyzzy=1"; do
+    # shellcheck disable=SC2086
+    complains xyzzy $words
+    ! grep -qE "nearest|did you mean" err || fail "accel $words: $(cat err)"
+done
+
+# Of two values of an option none is dropped without a word; a list of them is taken.
+complains "--accelerator is given twice" lazy one -a "$kind" -a linear
+complains "--accelerator is given twice" trace one -o x.exr -a linear --accelerator linear
+complains "--output is given twice" trace one -o x.exr -o y.exr
+complains "--size is given twice" trace one -o x.exr --size 8x8 --size=9x9
+complains "--csv is given twice" bench one --csv a.csv --csv b.csv
+expect 0 info one -a linear -a "$kind" -q -q
 complains "no SCENE is given; usage: accel info" info
 complains "no SCENE is given; usage: accel check" check
 complains "SCENE and -o FILE are needed" trace one
@@ -32,6 +47,10 @@ if [ -n "$key" ]; then
     complains "did you mean '$key'" info one -a "$kind:x$key=3"
     complains "$key" info one -a "$kind:$key=-1"
 fi
+complains "did you mean '$kind'" info one -a "${kind^^}"
+complains "nearest is check" CHECK
+complains "nearest is --quiet" info one --Quiet
+complains "nearest is teapots" info Teapots
 complains "nearest is teapots" info teapot
 complains "nearest is gap" info cubes:gop=1
 complains "gap=2 is given twice" info cubes:gap=1,gap=2

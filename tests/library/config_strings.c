@@ -3,6 +3,7 @@
  * The config string: every key of every kind, good and bad; the texts of errors; the description
  * builds the same structure again.
  */
+#include <ctype.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -205,6 +206,17 @@ static void test_repeats(void **state)
     }
 }
 
+/* A word that is like no legal one: there is nothing to be suggested. */
+static void suggest_nothing(const char *config)
+{
+    accel *a;
+    accel_error error;
+    assert_int_equal(accel_build(&a, &scene.scene, config, NULL, &error), ACCEL_BAD_CONFIG);
+    assert_null(strstr(error.text, "did you mean"));
+    assert_non_null(strstr(error.text, "allowed are linear"));
+    check_style(&error);
+}
+
 static void test_kinds(void **state)
 {
     (void)state;
@@ -215,6 +227,9 @@ static void test_kinds(void **state)
         snprintf(text, sizeof text, "%s%c", kind[i]->name, 'z');
         snprintf(mean, sizeof mean, "did you mean '%s'", kind[i]->name);
         REFUSE(text, text, "unknown kind", mean, "linear");
+        for (char *c = text; *c; c++)
+            *c = (char)toupper((unsigned char)*c);
+        REFUSE(text, text, "unknown kind", mean);
         snprintf(text, sizeof text, "%s:", kind[i]->name);
         REFUSE(text, kind[i]->name);
         snprintf(text, sizeof text, "%s:nokey=1", kind[i]->name);
@@ -222,6 +237,8 @@ static void test_kinds(void **state)
         snprintf(text, sizeof text, " %s", kind[i]->name);
         REFUSE(text, "unknown kind");
     }
+    suggest_nothing("nothinglike");
+    suggest_nothing("xyz");
     REFUSE(":", "unknown kind");
     REFUSE("OCTREE", "OCTREE", "unknown kind");
     REFUSE(",", "unknown kind");
