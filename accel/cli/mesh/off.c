@@ -206,6 +206,7 @@ static bool read_text(mesh_reader *r, header *h)
         !take_vertices(r, h) || !take_faces(r, h)) {
         return false;
     }
+    mesh_skip_space(&r->text);
     mesh_note_rest(r, r->text.at);
     return true;
 }
@@ -254,7 +255,7 @@ static bool take_binary_vertices(mesh_reader *r, const header *h, rest *b)
 static bool take_binary_face(mesh_reader *r, const header *h, rest *b)
 {
     const char *const begin = b->at;
-    uint64_t corners, index, colours;
+    uint64_t corners, index = 0, colours;
     if (!take_whole(r, b, &corners)) {
         return false;
     }
@@ -335,9 +336,11 @@ bool mesh_read_off(mesh_reader *r)
 {
     header h = {0};
     r->text.comment = '#';
-    mesh_skip_space(&r->text);
-    if (!take_keyword(&r->text, &h) && (r->text.at == r->text.end || !mesh_is(*r->text.at, MESH_DIGIT))) {
-        return mesh_expect(r, "[ST][C][N][4][n]OFF, or the numbers of vertices, faces and edges");
+    if (!mesh_skip_space(&r->text) || !take_keyword(&r->text, &h)) {
+        if (mesh_at_line_end(&r->text) || !mesh_is(*r->text.at, MESH_DIGIT)) {
+            return mesh_expect(r, "[ST][C][N][4][n]OFF, or the numbers of vertices, faces, edges");
+        }
+        h = (header){0};
     }
     h.binary = take_binary(&r->text);
     if (h.binary && h.dimension) {

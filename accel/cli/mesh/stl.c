@@ -58,10 +58,19 @@ static void skip_name(mesh_text *text)
     }
 }
 
+/* The header of a binary file may hold any words, but the count behind it has a zero byte where
+ * there are less than 2^24 triangles. */
+static bool begins_as_text(mesh_text *text)
+{
+    const char *const count = text->begin + HEADER - 4;
+    const bool zero = text->end - count >= 4 && memchr(count, 0, 4) != NULL;
+    return !zero && take(text, "solid");
+}
+
 bool mesh_is_text_stl(const mesh_text *start)
 {
     mesh_text text = *start;
-    if (!take(&text, "solid")) {
+    if (!begins_as_text(&text)) {
         return false;
     }
     skip_name(&text);
@@ -191,7 +200,7 @@ static bool is_text(const mesh_reader *r)
     const size_t size = r->source->size;
     mesh_text text = r->text;
     return mesh_is_text_stl(&text) ||
-           (take(&text, "solid") &&
+           (begins_as_text(&text) &&
             (size < HEADER ||
              (size - HEADER) / FACET < mesh_bytes32(r->source->bytes + HEADER - 4, false)));
 }

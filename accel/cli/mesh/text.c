@@ -214,8 +214,8 @@ bool mesh_take_integer(mesh_text *text, int64_t *number)
     const char *const begin = at;
     uint64_t digits = 0;
     for (; at < text->end && mesh_is(*at, MESH_DIGIT); at++) {
-        digits = digits <= MOST_BEFORE_DIGIT / 10 ? 10 * digits + (uint64_t)(*at - '0')
-                                                  : MOST_BEFORE_DIGIT;
+        digits = digits < MOST_BEFORE_DIGIT / 10 ? 10 * digits + (uint64_t)(*at - '0')
+                                                 : MOST_BEFORE_DIGIT;
     }
     if (at == begin) {
         return false;
@@ -230,7 +230,7 @@ bool mesh_take_count(mesh_text *text, uint64_t *count)
     const char *const begin = text->at;
     int64_t number;
     if (begin == text->end || !mesh_is(*begin, MESH_DIGIT) || !mesh_take_integer(text, &number) ||
-        !mesh_word_ends(text, text->at)) {
+        number == (int64_t)MOST_BEFORE_DIGIT || !mesh_word_ends(text, text->at)) {
         text->at = begin;
         return false;
     }

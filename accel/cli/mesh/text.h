@@ -61,11 +61,17 @@ static inline bool mesh_at_line_end(const mesh_text *text)
     return text->at == text->end || mesh_is(*text->at, MESH_LINE_END);
 }
 
+/* 1.#INF is a word, by which some writers mean infinity, and no comment behind a 1. */
+static inline bool mesh_follows_point(const mesh_text *text, const char *at)
+{
+    return at > text->begin && at[-1] == '.';
+}
+
 /* Does a word end before `at`? */
 static inline bool mesh_word_ends(const mesh_text *text, const char *at)
 {
     return at == text->end || mesh_is(*at, MESH_BLANK | MESH_LINE_END) ||
-           (text->comment != 0 && *at == text->comment) ||
+           (text->comment != 0 && *at == text->comment && !mesh_follows_point(text, at)) ||
            (text->joins && *at == '\\' && mesh_joins(text, at));
 }
 
@@ -100,7 +106,7 @@ bool mesh_take_number(mesh_text *text, double *number);
  * 10^18. Otherwise returns false and leaves `at`. */
 bool mesh_take_integer(mesh_text *text, int64_t *number);
 
-/* Takes a word that is a whole number, of digits alone, up to 10^18. Otherwise leaves `at`. */
+/* Takes a word that is a whole number, of digits alone, below 10^18. Otherwise leaves `at`. */
 bool mesh_take_count(mesh_text *text, uint64_t *count);
 
 enum { MESH_FOUND_TEXT = 64 };
