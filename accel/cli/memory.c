@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * How much memory is there? By /proc (proc(5)), control groups of version 2 and getrlimit.
+ * How much memory is there? By /proc (proc(5)), control groups of version 2 and getrlimit. Large
+ * pages by madvise.
  */
 #include "memory.h"
 
 #include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/mman.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -78,4 +80,14 @@ uint64_t accel_memory_free(void)
     const uint64_t machine = free_of_machine(), group = free_of_group(), own = free_of_process();
     const uint64_t least = machine < group ? machine : group;
     return least < own ? least : own;
+}
+
+void accel_memory_large_pages(void *block, size_t bytes)
+{
+    enum { LARGE = 8 << 20 };
+    const size_t page = (size_t)sysconf(_SC_PAGESIZE);
+    const size_t before = (page - (uintptr_t)block % page) % page;
+    if (bytes >= LARGE) {
+        madvise((char *)block + before, bytes - before, MADV_HUGEPAGE);
+    }
 }

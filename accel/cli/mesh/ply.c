@@ -66,7 +66,7 @@ static double binary_number(const char *at, ply_type type, bool big)
 }
 
 /* Takes a number, binary or text. False: refused. */
-static bool take_number(body *b, ply_type type, double *number)
+static inline bool take_number(body *b, ply_type type, double *number)
 {
     mesh_reader *r = b->r;
     if (b->p->form == PLY_TEXT) {

@@ -14,8 +14,8 @@
  * in decimal has. */
 enum { LONGEST_NUMBER = 2000 };
 
-/* One digit more still fits into 64 bits below this. */
-#define MOST_BEFORE_DIGIT UINT64_C(999999999999999999)
+/* What counts and indices of too many digits become. */
+#define TOO_LARGE UINT64_C(999999999999999999)
 
 const unsigned char mesh_classes[256] = {
     [' '] = MESH_BLANK,     ['\t'] = MESH_BLANK,    ['\v'] = MESH_BLANK, ['\f'] = MESH_BLANK,
@@ -70,9 +70,8 @@ void mesh_skip_line(mesh_text *text)
     }
 }
 
-bool mesh_skip_space(mesh_text *text)
+bool mesh_skip_lines(mesh_text *text)
 {
-    mesh_skip_blanks(text);
     while (text->at < text->end && mesh_is(*text->at, MESH_LINE_END)) {
         mesh_take_line_end(text);
         mesh_skip_blanks(text);
@@ -111,46 +110,36 @@ bool mesh_take_this(mesh_text *text, const char *wanted)
 
 /* The digits of a number and the power of ten that they are multiplied with. */
 typedef struct decimal {
-    uint64_t digits;
+    uint64_t digits; /* modulo 2^64 */
+    size_t count;    /* of digits, leading zeros too */
     int exponent;
-    bool exact; /* no digit is left out */
 } decimal;
 
-static void add_digit(decimal *d, char digit, bool behind_point)
-{
-    if (d->digits <= MOST_BEFORE_DIGIT) {
-        d->digits = 10 * d->digits + (uint64_t)(digit - '0');
-        d->exponent -= behind_point;
-    } else {
-        d->exact = false;
-    }
-}
-
-/* Scans the digits and the point of a number. Returns its end, or NULL where there is no digit. */
+/* Scans the digits and the point of a number. Returns its end. */
 static const char *scan_digits(const char *at, const char *end, decimal *d)
 {
     const char *const begin = at;
-    for (; at < end && mesh_is(*at, MESH_DIGIT); at++) {
-        add_digit(d, *at, false);
+    uint64_t digits = 0;
+    for (; at < end && (unsigned char)(*at - '0') < 10; at++) {
+        digits = 10 * digits + (unsigned char)(*at - '0');
     }
-    if (at == end || *at != '.') {
-        return at == begin ? NULL : at;
+    d->count = (size_t)(at - begin);
+    if (at < end && *at == '.') {
+        const char *const behind = ++at;
+        for (; at < end && (unsigned char)(*at - '0') < 10; at++) {
+            digits = 10 * digits + (unsigned char)(*at - '0');
+        }
+        d->count += (size_t)(at - behind);
+        d->exponent = at - behind < 1000 ? -(int)(at - behind) : -1000;
     }
-    const char *const point = at++;
-    for (; at < end && mesh_is(*at, MESH_DIGIT); at++) {
-        add_digit(d, *at, true);
-    }
-    return point == begin && at == point + 1 ? NULL : at;
+    d->digits = digits;
+    return at;
 }
 
 /* Scans the exponent. Returns its end, or NULL where it has no digit. */
 static const char *scan_exponent(const char *at, const char *end, decimal *d)
 {
-    if (at == end || (*at != 'e' && *at != 'E')) {
-        return at;
-    }
-    at++;
-    const bool negative = at < end && *at == '-';
+    const bool negative = ++at < end && *at == '-';
     at += at < end && (*at == '-' || *at == '+');
     const char *const begin = at;
     int exponent = 0;
@@ -177,7 +166,7 @@ static bool convert(const mesh_text *text, const char *begin, size_t length, dou
 /* One operation on exact operands rounds correctly; it must not be rounded twice. */
 static bool is_one_operation(const decimal *d)
 {
-    return FLT_EVAL_METHOD == 0 && d->exact && d->digits <= UINT64_C(1) << 53 &&
+    return FLT_EVAL_METHOD == 0 && d->count <= 19 && d->digits <= UINT64_C(1) << 53 &&
            d->exponent >= -22 && d->exponent <= 22;
 }
 
@@ -187,12 +176,14 @@ bool mesh_take_number(mesh_text *text, double *number)
                                     1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
                                     1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
     const char *const begin = text->at;
-    decimal d = {.exact = true};
+    decimal d = {0, 0, 0};
     const char *at = begin;
     at += at < text->end && (*at == '-' || *at == '+');
     at = scan_digits(at, text->end, &d);
-    at = at == NULL ? NULL : scan_exponent(at, text->end, &d);
-    if (at == NULL || !mesh_word_ends(text, at)) {
+    if (d.count != 0 && at < text->end && (*at == 'e' || *at == 'E')) {
+        at = scan_exponent(at, text->end, &d);
+    }
+    if (d.count == 0 || at == NULL || !mesh_word_ends(text, at)) {
         return false;
     }
     if (is_one_operation(&d)) {
@@ -213,13 +204,13 @@ bool mesh_take_integer(mesh_text *text, int64_t *number)
     at += at < text->end && (*at == '-' || *at == '+');
     const char *const begin = at;
     uint64_t digits = 0;
-    for (; at < text->end && mesh_is(*at, MESH_DIGIT); at++) {
-        digits = digits < MOST_BEFORE_DIGIT / 10 ? 10 * digits + (uint64_t)(*at - '0')
-                                                 : MOST_BEFORE_DIGIT;
+    for (; at < text->end && (unsigned char)(*at - '0') < 10; at++) {
+        digits = 10 * digits + (unsigned char)(*at - '0');
     }
     if (at == begin) {
         return false;
     }
+    digits = at - begin > 18 ? TOO_LARGE : digits;
     *number = negative ? -(int64_t)digits : (int64_t)digits;
     text->at = at;
     return true;
@@ -230,7 +221,7 @@ bool mesh_take_count(mesh_text *text, uint64_t *count)
     const char *const begin = text->at;
     int64_t number;
     if (begin == text->end || !mesh_is(*begin, MESH_DIGIT) || !mesh_take_integer(text, &number) ||
-        number == (int64_t)MOST_BEFORE_DIGIT || !mesh_word_ends(text, text->at)) {
+        number == (int64_t)TOO_LARGE || !mesh_word_ends(text, text->at)) {
         text->at = begin;
         return false;
     }

@@ -87,8 +87,15 @@ static inline void mesh_take_line_end(mesh_text *text)
 /* Moves to the end of the line, over whatever it holds. */
 void mesh_skip_line(mesh_text *text);
 
+/* From the end of a line, or a word, to the next word. False: there is none. */
+bool mesh_skip_lines(mesh_text *text);
+
 /* Moves to the next word, over ends of lines. False: there is none. */
-bool mesh_skip_space(mesh_text *text);
+static inline bool mesh_skip_space(mesh_text *text)
+{
+    mesh_skip_blanks(text);
+    return !mesh_at_line_end(text) || mesh_skip_lines(text);
+}
 
 /* Takes the word at `at`, which is not empty unless a line ends here. */
 size_t mesh_take_word(mesh_text *text, const char **word);
