@@ -123,6 +123,7 @@ loads pentagon.obj 3 '0 0 0, 2 2 0' 'v 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 2 0\nv 0 1 0
 loads late_polygon.obj 2 '0 0 0, 4 4 0' 'f 1 2 3 4\nv 0 0 0\nv 4 0 0\nv 1 1 0\nv 0 4 0\n'
 loads flat_polygon.obj 3 '0 0 0, 4 0 0' 'v 0 0 0\nv 1 0 0\nv 2 0 0\nv 3 0 0\nv 4 0 0\nf 1 2 3 4 5\n'
 loads crossing.obj 2 '0 0 0, 1 1 0' 'v 0 0 0\nv 1 1 0\nv 1 0 0\nv 0 1 0\nf 1 2 3 4\n' '1 faces cross themselves'
+loads pentagram.obj 3 '-1 -1 0, 1 1 0' 'v 0 1 0\nv 0.6 -1 0\nv -1 0.2 0\nv 1 0.2 0\nv -0.6 -1 0\nf 1 2 3 4 5\n' '1 faces cross themselves'
 gon=$(for ((i = 0; i < 1000; i++)); do printf 'v %d %d 0\\n' $((i < 500 ? i : 999 - i)) $((i < 500 ? 0 : 1)); done)
 loads many_corners.obj 998 '0 0 0, 499 1 0' "${gon}f $(seq -s ' ' 1000)\n"
 spiral=$(awk 'BEGIN { for (i = 0; i < 600; i++) printf "v %.9g %.9g 0\\n", i * cos(i / 20), i * sin(i / 20)
@@ -149,6 +150,8 @@ expect 0 trace parts.obj --rays rays.txt -o hits.txt
 # The name does not matter, but where the content leaves it open.
 write content.ply "${v}f 1 2 3\n"
 check_loads content.ply 1 "$unit" ''
+write numbers.txt 'v 1e-300 0 0\nv 1 0 0\nv 0 1.0000000000000000000001 0\nf 1 2 3\n'
+check_loads numbers.txt 1 "$unit" ''
 write content.txt "mtllib a.mtl\n${v}f 1 2 3\n"
 check_loads content.txt 1 "$unit" ''
 finish_cases

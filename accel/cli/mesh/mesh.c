@@ -16,12 +16,23 @@
 /* Corners compared with ears, at a few nanoseconds each: enough for a spiral of 65,536 corners. */
 #define MOST_CUTTING ((uint64_t)1 << 32)
 
-/* The text of a file, behind its byte-order mark. */
+/* The text of a file, behind its byte-order mark. Without memory for the locale it has none; its
+ * locale is to be freed. */
 static mesh_text text_of(const char *bytes, size_t size)
 {
     const bool marked = size >= 3 && memcmp(bytes, "\xEF\xBB\xBF", 3) == 0;
-    return (mesh_text){
-        .at = bytes + (marked ? 3 : 0), .begin = bytes, .end = bytes + size, .line = 1};
+    return (mesh_text){.at = bytes + (marked ? 3 : 0),
+                       .begin = bytes,
+                       .end = bytes + size,
+                       .line = 1,
+                       .c_locale = newlocale(LC_ALL_MASK, "C", (locale_t)0)};
+}
+
+static void free_text(mesh_text *text)
+{
+    if (text->c_locale != (locale_t)0) {
+        freelocale(text->c_locale);
+    }
 }
 
 static bool is_ply(const mesh_text *start)
@@ -90,24 +101,32 @@ static accel_mesh_format by_name(const char *name)
     return ACCEL_MESH_OTHER;
 }
 
-accel_mesh_format accel_mesh_recognise(const char *name, const char *bytes, size_t size)
+static accel_mesh_format by_content(const mesh_text *text)
 {
-    const mesh_text text = text_of(bytes, size);
-    mesh_text commented = text;
+    mesh_text commented = *text;
     commented.comment = '#';
-    if (is_ply(&text)) {
+    if (is_ply(text)) {
         return ACCEL_MESH_PLY;
     }
-    if (is_gltf(&text)) {
+    if (is_gltf(text)) {
         return ACCEL_MESH_GLTF;
     }
-    if (mesh_is_binary_stl(bytes, size) || mesh_is_text_stl(&text)) {
+    if (mesh_is_binary_stl(text->begin, (size_t)(text->end - text->begin)) ||
+        mesh_is_text_stl(text)) {
         return ACCEL_MESH_STL;
     }
     if (mesh_is_off(&commented)) {
         return ACCEL_MESH_OFF;
     }
-    return is_obj(&text) ? ACCEL_MESH_OBJ : by_name(name);
+    return is_obj(text) ? ACCEL_MESH_OBJ : ACCEL_MESH_OTHER;
+}
+
+accel_mesh_format accel_mesh_recognise(const char *name, const char *bytes, size_t size)
+{
+    mesh_text text = text_of(bytes, size);
+    const accel_mesh_format format = by_content(&text);
+    free_text(&text);
+    return format == ACCEL_MESH_OTHER ? by_name(name) : format;
 }
 
 static bool is_utf16(const accel_mesh_source *source)
@@ -118,6 +137,7 @@ static bool is_utf16(const accel_mesh_source *source)
 
 static void free_reader(mesh_reader *r)
 {
+    free_text(&r->text);
     free(r->mesh.numbers);
     free(r->mesh.indices);
     free(r->face.items);
@@ -139,31 +159,34 @@ static bool finish(mesh_reader *r)
     return true;
 }
 
-bool accel_mesh_read(accel_loaded *out, const accel_mesh_source *source, accel_error *error)
+/* Without its reader: what is no mesh in any of the formats. */
+static bool read_as(mesh_reader *r, accel_mesh_format format)
 {
     static mesh_read *const readers[] = {
         [ACCEL_MESH_OBJ] = mesh_read_obj, [ACCEL_MESH_PLY] = mesh_read_ply,
         [ACCEL_MESH_STL] = mesh_read_stl, [ACCEL_MESH_OFF] = mesh_read_off,
         [ACCEL_MESH_GLTF] = mesh_read_gltf};
+    if (format == ACCEL_MESH_OTHER) {
+        return mesh_refuse(r, "is no OBJ, PLY, STL, OFF or glTF file");
+    }
+    if (is_utf16(r->source) && !mesh_is_binary_stl(r->source->bytes, r->source->size)) {
+        return mesh_refuse(r, "is text in UTF-16, allowed is UTF-8");
+    }
+    if (r->text.c_locale == (locale_t)0) {
+        return mesh_refuse_memory(r);
+    }
+    return readers[format](r) && finish(r);
+}
+
+bool accel_mesh_read(accel_loaded *out, const accel_mesh_source *source, accel_error *error)
+{
     mesh_reader r = {.source = source,
                      .out = out,
                      .error = error,
                      .text = text_of(source->bytes, source->size),
                      .cutter.most_work = MOST_CUTTING};
-    const accel_mesh_format format =
-        accel_mesh_recognise(source->name, source->bytes, source->size);
-    if (format == ACCEL_MESH_OTHER) {
-        return mesh_refuse(&r, "is no OBJ, PLY, STL, OFF or glTF file");
-    }
-    if (is_utf16(source) && !mesh_is_binary_stl(source->bytes, source->size)) {
-        return mesh_refuse(&r, "is text in UTF-16, allowed is UTF-8");
-    }
-    r.text.c_locale = newlocale(LC_ALL_MASK, "C", (locale_t)0);
-    if (r.text.c_locale == (locale_t)0) {
-        return mesh_refuse_memory(&r);
-    }
-    const bool fine = readers[format](&r) && finish(&r);
-    freelocale(r.text.c_locale);
+    const bool fine =
+        read_as(&r, accel_mesh_recognise(source->name, source->bytes, source->size));
     free_reader(&r);
     return fine;
 }

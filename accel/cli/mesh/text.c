@@ -150,11 +150,11 @@ static const char *scan_exponent(const char *at, const char *end, decimal *d)
     return at == begin ? NULL : at;
 }
 
-/* By strtod. False: it is too long, or too large for a double. */
+/* By strtod. False: it is too long, or too large for a double, or there is no locale. */
 static bool convert(const mesh_text *text, const char *begin, size_t length, double *number)
 {
     char copy[LONGEST_NUMBER + 1];
-    if (length > LONGEST_NUMBER) {
+    if (length > LONGEST_NUMBER || text->c_locale == (locale_t)0) {
         return false;
     }
     memcpy(copy, begin, length);
