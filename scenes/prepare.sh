@@ -19,10 +19,10 @@ logs=$build/logs
 
 # The packages; those to build POV-Ray are known to povray-adapter/build.sh. ca-certificates: for
 # mirrors that are reached by https.
-packages_build=(ca-certificates gcc g++ make cmake pkg-config libassimp-dev libopenexr-dev
-    libpng-dev librandom123-dev)
+packages_build=(ca-certificates gcc g++ make cmake pkg-config libassimp-dev libjansson-dev
+    libopenexr-dev libpng-dev librandom123-dev)
 packages_stock=(povray povray-includes)
-packages_fast=(libcmocka-dev)
+packages_fast=(libcmocka-dev locales)
 packages_tests=("${packages_fast[@]}" povray-examples libembree-dev gnuplot-nox libxml2-utils clang)
 
 say() { printf '%s\n' "$*"; }

@@ -5,6 +5,8 @@
  */
 #include "file.h"
 
+#include "memory.h"
+
 #include <errno.h>
 #include <fcntl.h>
 #include <stdio.h>
@@ -70,6 +72,7 @@ static const char *read_open_file(int descriptor, accel_file *file)
     if (file->bytes == NULL) {
         return "does not fit into memory";
     }
+    accel_memory_large_pages(file->bytes, file->size);
     trouble = read_all(descriptor, file);
     if (trouble != NULL) {
         free(file->bytes);

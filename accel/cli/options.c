@@ -23,19 +23,34 @@ accel_arguments accel_arguments_start(const accel_command *command, int argc, ch
     return (accel_arguments){.command = command, .argv = argv, .argc = argc, .at = 1};
 }
 
-int accel_complain(const accel_command *command, const char *format, ...)
+/* Prints one line, whatever is in a file's name. */
+__attribute__((format(printf, 3, 0))) static void say(const accel_command *command,
+                                                      const char *what, const char *format,
+                                                      va_list list)
 {
     char text[1000];
-    va_list list;
-    va_start(list, format);
     vsnprintf(text, sizeof text, format, list);
-    va_end(list);
-    /* one line, whatever is in a file's name */
     for (char *c = text; *c != '\0'; c++) {
         *c = iscntrl((unsigned char)*c) ? '?' : *c;
     }
-    fprintf(stderr, "accel %s: %s\n", command->name, text);
+    fprintf(stderr, "accel %s: %s%s\n", command->name, what, text);
+}
+
+int accel_complain(const accel_command *command, const char *format, ...)
+{
+    va_list list;
+    va_start(list, format);
+    say(command, "", format, list);
+    va_end(list);
     return ACCEL_EXIT_BAD;
+}
+
+void accel_note(const accel_command *command, const char *format, ...)
+{
+    va_list list;
+    va_start(list, format);
+    say(command, "note: ", format, list);
+    va_end(list);
 }
 
 static void print_flag(const accel_flag *flag)

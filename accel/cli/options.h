@@ -74,6 +74,10 @@ bool accel_take_arguments(accel_arguments *a, accel_take *take, void *request);
 int accel_complain(const accel_command *command, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
+/* Prints "accel NAME: note: TEXT" to stderr. */
+void accel_note(const accel_command *command, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+
 /* Reads a->value as a whole number in min..max, or complains and returns false. */
 bool accel_whole_argument(const accel_arguments *a, int flag, uint64_t min, uint64_t max,
                           uint64_t *out);

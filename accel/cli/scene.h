@@ -3,12 +3,14 @@
  * The scenes of the command, the tests and the reports: mesh files and built-in generators.
  *
  * A SCENE is "name[:key=value[,key=value]...]" for a built-in one, where the name is one of
- * accel_scene_kinds, or else the path of a mesh file that assimp reads.
+ * accel_scene_kinds, or else the path of a mesh file.
  *
- * Mesh files: one geometry for each mesh that a node refers to, nodes depth first, meshes in the
- * node's order; formats without nodes (PLY, STL, OFF) give one geometry. Triangles and vertices
- * keep the file's order; polygons are cut into triangles in place; points and lines are left out
- * and counted. assimp reads coordinates as float; node transforms are applied in double.
+ * Mesh files: OBJ, PLY, STL, OFF and glTF are read strictly (see mesh/mesh.h), the other formats by
+ * assimp, unchecked. A geometry is what PLY and OFF hold, a solid of STL, an object or group of OBJ,
+ * and of formats with nodes a mesh that a node refers to, nodes depth first. Triangles and vertices
+ * keep the file's order; polygons are cut into triangles in place; points and lines are left out and
+ * counted. Coordinates of text are the nearest doubles, those of binary files keep their value;
+ * assimp reads them as float. The matrices of nodes are applied in double.
  */
 #ifndef ACCEL_CLI_SCENE_H
 #define ACCEL_CLI_SCENE_H
@@ -20,6 +22,7 @@ typedef struct accel_loaded {
     accel_scene scene;          /* for accel_build; borrows from `geometries` */
     accel_geometry *geometries; /* scene.count of them; their arrays are owned as well */
     uint64_t left_out;          /* points and lines of a mesh file */
+    char note[300];             /* what else a mesh file holds that is not in the scene, or empty */
 } accel_loaded;
 
 /* Called about ten times a second while a file is read; may be NULL. */

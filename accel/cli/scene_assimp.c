@@ -24,7 +24,7 @@ typedef struct placed_list {
     placed *items;
     size_t count, room;
     uint64_t bytes; /* of the result so far */
-    bool failed;    /* no memory, or more than the file's size can justify */
+    bool failed;    /* no memory */
 } placed_list;
 
 static void product(const double a[3][4], const struct aiMatrix4x4 *node, double out[3][4])
@@ -42,7 +42,7 @@ static void product(const double a[3][4], const struct aiMatrix4x4 *node, double
     }
 }
 
-static void place(placed_list *list, const placed *item, uint64_t most)
+static void place(placed_list *list, const placed *item)
 {
     list->bytes += 24 * (uint64_t)item->mesh->mNumVertices + 12 * (uint64_t)item->mesh->mNumFaces;
     if (list->count == list->room) {
@@ -51,25 +51,23 @@ static void place(placed_list *list, const placed *item, uint64_t most)
         list->failed = list->failed || block == NULL;
         list->items = block == NULL ? list->items : block;
     }
-    if (list->failed || list->bytes > most) {
-        list->failed = true;
-        return;
+    if (!list->failed) {
+        list->items[list->count++] = *item;
     }
-    list->items[list->count++] = *item;
 }
 
 /* Depth first. A hostile depth ends the child alone. */
 static void place_node(placed_list *list, const struct aiScene *scene, const struct aiNode *node,
-                       const double parent[3][4], uint64_t most)
+                       const double parent[3][4])
 {
     placed item;
     product(parent, &node->mTransformation, item.to_scene);
     for (unsigned i = 0; i < node->mNumMeshes && !list->failed; i++) {
         item.mesh = scene->mMeshes[node->mMeshes[i]];
-        place(list, &item, most);
+        place(list, &item);
     }
     for (unsigned i = 0; i < node->mNumChildren && !list->failed; i++) {
-        place_node(list, scene, node->mChildren[i], item.to_scene, most);
+        place_node(list, scene, node->mChildren[i], item.to_scene);
     }
 }
 
@@ -139,13 +137,22 @@ static void send_trouble(FILE *pipe, const char *trouble)
 
 static void send_scene(FILE *pipe, const struct aiScene *scene, uint64_t most)
 {
+    char text[200];
     static const double identity[3][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};
     placed_list list = {0};
     if (scene->mRootNode != NULL) {
-        place_node(&list, scene, scene->mRootNode, identity, most);
+        place_node(&list, scene, scene->mRootNode, identity);
     }
     if (list.failed || list.count >= UINT32_MAX) {
-        send_trouble(pipe, "it asks for more memory than its size can justify");
+        send_trouble(pipe, "does not fit into memory");
+        return;
+    }
+    if (list.bytes > most) {
+        snprintf(text, sizeof text,
+                 "shows %zu meshes, which take %llu MB of memory, but %llu MB are free: free some",
+                 list.count, (unsigned long long)(list.bytes >> 20),
+                 (unsigned long long)(most >> 20));
+        send_trouble(pipe, text);
         return;
     }
     const accel_file_verdict verdict = {"", count_left_out(&list), (uint32_t)list.count};
@@ -155,33 +162,15 @@ static void send_scene(FILE *pipe, const struct aiScene *scene, uint64_t most)
     }
 }
 
-static uint64_t count_faces(const struct aiScene *scene)
-{
-    uint64_t faces = 0;
-    for (unsigned i = 0; i < scene->mNumMeshes; i++) {
-        faces += scene->mMeshes[i]->mNumFaces;
-    }
-    return faces;
-}
-
 void accel_file_import(void *user, FILE *pipe)
 {
-    accel_mesh_file *mesh = user;
+    accel_import_file *import = user;
     struct aiFileIO io = {
-        .OpenProc = accel_file_open, .CloseProc = accel_file_close, .UserData = (char *)mesh};
-    const struct aiScene *scene = aiImportFileEx(mesh->file.path, 0, &io);
-    /* assimp drops what it cannot read without a word */
-    if (scene != NULL && mesh->faces != 0 && count_faces(scene) != mesh->faces) {
-        char text[200];
-        snprintf(text, sizeof text, "its header promises %llu faces, but its reader finds %llu",
-                 (unsigned long long)mesh->faces, (unsigned long long)count_faces(scene));
-        send_trouble(pipe, text);
-        return;
-    }
-    scene = scene == NULL ? NULL : aiApplyPostProcessing(scene, aiProcess_Triangulate);
+        .OpenProc = accel_file_open, .CloseProc = accel_file_close, .UserData = (char *)import};
+    const struct aiScene *scene = aiImportFileEx(import->file.path, aiProcess_Triangulate, &io);
     if (scene == NULL) {
         send_trouble(pipe, aiGetErrorString());
     } else {
-        send_scene(pipe, scene, accel_file_memory(mesh->file.size));
+        send_scene(pipe, scene, import->memory);
     }
 }

@@ -4,6 +4,8 @@
  */
 #include "scene_build.h"
 
+#include "memory.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -17,6 +19,7 @@ static void *make_room(void *block, size_t count, size_t more, size_t size, size
     void *grown = realloc(block, wanted * size);
     if (grown != NULL) {
         *room = wanted;
+        accel_memory_large_pages(grown, wanted * size);
     }
     return grown;
 }

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * assimp's doors to files. The mesh file itself is served from memory. Of other files only what a
- * glTF keeps beside itself is served: a regular file in the same folder, so that a hostile scene
- * cannot have other files read. Materials and pictures are not needed.
+ * assimp's doors to files. The mesh file itself is served from memory, and no other one, so that a
+ * hostile scene cannot have other files read. Materials and pictures are not needed.
  */
 #include "scene_file.h"
 
@@ -12,9 +11,8 @@
 /* An open file: bytes and a place in them. */
 typedef struct door {
     struct aiFile file; /* what assimp sees; its UserData is this door */
-    accel_file bytes;   /* owned if it is not the mesh file */
+    accel_file bytes;   /* of the mesh file */
     size_t at;          /* of the next byte */
-    bool owned;         /* bytes.bytes is freed on close */
 } door;
 
 static door *door_of(struct aiFile *file)
@@ -66,44 +64,15 @@ static void door_flush(struct aiFile *file)
     (void)file;
 }
 
-static size_t folder_length(const char *path)
-{
-    const char *slash = strrchr(path, '/');
-    return slash == NULL ? 0 : (size_t)(slash - path) + 1;
-}
-
-static bool is_gltf(const char *path)
-{
-    const size_t length = strlen(path);
-    return length > 5 && strcmp(path + length - 5, ".gltf") == 0;
-}
-
-/* Is `path` a file in the folder of the glTF file `main`? */
-static bool may_open(const char *main, const char *path)
-{
-    const size_t length = folder_length(main);
-    return is_gltf(main) && strncmp(main, path, length) == 0 && strchr(path + length, '/') == NULL;
-}
-
-static bool open_bytes(door *d, const accel_file *main, const char *path)
-{
-    if (strcmp(path, main->path) == 0) {
-        d->bytes = *main;
-        return true;
-    }
-    accel_error error;
-    d->owned = may_open(main->path, path) && accel_file_read(&d->bytes, path, &error);
-    return d->owned;
-}
-
 struct aiFile *accel_file_open(struct aiFileIO *io, const char *path, const char *mode)
 {
-    door *d = strchr(mode, 'r') == NULL ? NULL : calloc(1, sizeof *d);
-    const accel_mesh_file *mesh = (const accel_mesh_file *)(void *)io->UserData;
-    if (d == NULL || !open_bytes(d, &mesh->file, path)) {
-        free(d);
+    const accel_import_file *import = (const accel_import_file *)(void *)io->UserData;
+    const bool own = strchr(mode, 'r') != NULL && strcmp(path, import->file.path) == 0;
+    door *d = own ? calloc(1, sizeof *d) : NULL;
+    if (d == NULL) {
         return NULL;
     }
+    d->bytes = import->file;
     d->file = (struct aiFile){.ReadProc = door_read,
                               .WriteProc = door_write,
                               .TellProc = door_tell,
@@ -117,9 +86,5 @@ struct aiFile *accel_file_open(struct aiFileIO *io, const char *path, const char
 void accel_file_close(struct aiFileIO *io, struct aiFile *file)
 {
     (void)io;
-    door *d = door_of(file);
-    if (d->owned) {
-        free(d->bytes.bytes);
-    }
-    free(d);
+    free(door_of(file));
 }

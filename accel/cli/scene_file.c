@@ -1,17 +1,22 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Mesh files, hardened: the file is opened once and must be regular, its size is capped, what its
- * header promises is compared with the bytes that are there, and the importer runs in a child
+ * Mesh files, hardened: the file is opened once and must be regular, and its size is capped. OBJ,
+ * PLY, STL, OFF and glTF have strict readers of their own; for other formats assimp runs in a child
  * process whose every number is checked again before it is used.
  */
 #include "scene_file.h"
+
+#include "memory.h"
+#include "mesh/mesh.h"
 #include "scene_build.h"
 
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* Bytes that importing a file may take: text formats hold a number in two bytes, and the importers
  * keep about a hundred bytes for each. */
-uint64_t accel_file_memory(size_t file_bytes)
+static uint64_t memory_for(size_t file_bytes)
 {
     return ((uint64_t)1 << 30) + 100 * (uint64_t)file_bytes;
 }
@@ -52,6 +57,11 @@ static const char *receive_geometry(accel_child *child, accel_loaded *out)
     } else if (!indices_are_fine(&mesh)) {
         trouble = "a face refers to a vertex that is not there";
     }
+    if (trouble == NULL && mesh.index_count == 0) {
+        free(mesh.numbers);
+        free(mesh.indices);
+        return NULL;
+    }
     mesh.failed = trouble != NULL;
     if (!accel_loaded_add(out, ACCEL_TRIANGLES, &mesh) && trouble == NULL) {
         trouble = "does not fit into memory";
@@ -77,14 +87,14 @@ static const char *receive(accel_child *child, accel_loaded *out, accel_file_ver
                                                                        : trouble;
 }
 
-static bool import(accel_loaded *out, accel_mesh_file *mesh, accel_load_progress *progress,
+static bool import(accel_loaded *out, const accel_file *file, accel_load_progress *progress,
                    void *user, accel_error *error)
 {
     accel_child child;
-    const accel_child_limits limits = {accel_file_memory(mesh->file.size),
-                                       seconds_for(mesh->file.size)};
-    if (!accel_child_start(&child, limits, accel_file_import, mesh)) {
-        return accel_file_fail(mesh->file.path, "no process for its reader", error);
+    accel_import_file import = {*file, accel_memory_free()};
+    const accel_child_limits limits = {memory_for(file->size), seconds_for(file->size)};
+    if (!accel_child_start(&child, limits, accel_file_import, &import)) {
+        return accel_file_fail(file->path, "no process for its reader", error);
     }
     child.tick = progress;
     child.user = user;
@@ -93,23 +103,69 @@ static bool import(accel_loaded *out, accel_mesh_file *mesh, accel_load_progress
     const char *end = accel_child_end(&child);
     /* a child that died explains more than the bytes that are missing */
     trouble = trouble != NULL && end != NULL ? end : trouble;
-    return trouble == NULL || accel_file_fail(mesh->file.path, trouble, error);
+    snprintf(out->note, sizeof out->note,
+             "is read by assimp, unchecked, with coordinates as float");
+    return trouble == NULL || accel_file_fail(file->path, trouble, error);
+}
+
+/* What the readers of this command are given beside the bytes. */
+typedef struct reading {
+    const char *path; /* of the mesh file */
+    accel_load_progress *progress;
+    void *user;
+} reading;
+
+static void show_reading(void *user, const char *phase)
+{
+    const reading *r = user;
+    if (r->progress != NULL) {
+        r->progress(r->user, phase);
+    }
+}
+
+/* Reads a file in the folder of the mesh file. */
+static bool read_beside(void *user, accel_file *file, const char *name, accel_error *error)
+{
+    const char *path = ((const reading *)user)->path;
+    const char *slash = strrchr(path, '/');
+    const size_t folder = slash == NULL ? 0 : (size_t)(slash - path) + 1;
+    const size_t room = folder + strlen(name) + 1;
+    char *other = malloc(room);
+    if (other == NULL) {
+        return accel_file_fail(path, "does not fit into memory", error);
+    }
+    snprintf(other, room, "%.*s%s", (int)folder, path, name);
+    const bool fine = accel_file_read(file, other, error);
+    free(other);
+    return fine;
+}
+
+static bool read_mesh(accel_loaded *out, const accel_file *file, accel_load_progress *progress,
+                      void *user, accel_error *error)
+{
+    reading reading = {file->path, progress, user};
+    const accel_mesh_source source = {.name = file->path,
+                                      .bytes = file->bytes,
+                                      .size = file->size,
+                                      .memory = accel_memory_free(),
+                                      .beside = read_beside,
+                                      .progress = show_reading,
+                                      .user = &reading};
+    return accel_mesh_read(out, &source, error);
 }
 
 bool accel_load_file(accel_loaded *out, const char *path, accel_load_progress *progress, void *user,
                      accel_error *error)
 {
-    accel_mesh_file mesh = {0};
-    if (!accel_file_read(&mesh.file, path, error)) {
+    accel_file file;
+    if (!accel_file_read(&file, path, error)) {
         return false;
     }
-    char text[200];
-    const char *trouble = accel_file_counts(&mesh, text);
-    const bool fine = trouble == NULL ? import(out, &mesh, progress, user, error)
-                                      : accel_file_fail(path, trouble, error);
+    const bool own = accel_mesh_recognise(path, file.bytes, file.size) != ACCEL_MESH_OTHER;
+    const bool fine = (own ? read_mesh : import)(out, &file, progress, user, error);
     if (!fine) {
         accel_unload_scene(out);
     }
-    free(mesh.file.bytes);
+    free(file.bytes);
     return fine;
 }

@@ -57,6 +57,20 @@ int accel_end_output(accel_output *output, int code, int worst, const accel_comm
     return code;
 }
 
+/* Says what a file holds that is not in the scene. */
+static void note_left_out(const accel_loaded *loaded, const char *name,
+                          const accel_command *command)
+{
+    char left_out[80] = "";
+    if (loaded->left_out != 0) {
+        snprintf(left_out, sizeof left_out, "%" PRIu64 " points and lines are left out%s",
+                 loaded->left_out, loaded->note[0] == '\0' ? "" : "; ");
+    }
+    if (left_out[0] != '\0' || loaded->note[0] != '\0') {
+        accel_note(command, "%.200s: %s%s", name, left_out, loaded->note);
+    }
+}
+
 bool accel_open_scene(accel_loaded *loaded, const char *name, const accel_command *command,
                       accel_progress *progress)
 {
@@ -65,7 +79,9 @@ bool accel_open_scene(accel_loaded *loaded, const char *name, const accel_comman
     const bool fine = accel_load_scene(loaded, name, accel_progress_load, progress, &error);
     progress->what = NULL;
     accel_progress_clear(progress);
-    if (!fine) {
+    if (fine) {
+        note_left_out(loaded, name, command);
+    } else {
         accel_complain(command, "%s", error.text);
     }
     return fine;

@@ -172,8 +172,12 @@ const accel_command accel_command_trace = {
         "  origin = E     direction = (w + x r) + y u, not normalised\n"
         "y is up; the system is right-handed, but nothing depends on that.\n"
         "\n"
-        "--rays FILE: each line 'ox oy oz dx dy dz [tmin tmax [geom prim]]', blanks or commas\n"
-        "between; each line of the output is 'geom prim t u v' with 17 digits, or 'miss'.",
+        "--rays FILE: each line 'ox oy oz dx dy dz [tmin tmax [geom prim]]', blanks, commas or\n"
+        "semicolons between; empty lines, what follows '#', and a first line with the names of "
+        "columns\n"
+        "are passed over; each line of the output is 'geom prim t u v' with 17 digits, or 'miss', "
+        "for\n"
+        "a ray.",
     .flags = flags,
     .flag_count = sizeof flags / sizeof flags[0],
     .run = run,

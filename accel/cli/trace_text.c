@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Hits of the rays of a text file, one line for each: "geom prim t u v" or "miss". Numbers have 17
+ * Hits of the rays of a text file, one line for each ray: "geom prim t u v" or "miss". Numbers have 17
  * digits, which name a double exactly.
  */
 #include "trace.h"
 
 #include "file.h"
-#include "ray_text.h"
+#include "ray_lines.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
@@ -23,20 +23,38 @@ static void write_hit(const accel_tracing *tracing, const accel_ray *ray, FILE *
     }
 }
 
-static bool trace_line(const accel_tracing *tracing, const accel_file *file, const char *line,
-                       size_t number, FILE *out, accel_error *error)
+static bool refuse(const accel_file *file, const accel_ray_lines *lines, accel_error *error)
 {
-    accel_ray ray;
-    if (accel_read_ray(line, &ray)) {
-        write_hit(tracing, &ray, out);
-        return true;
-    }
     error->status = ACCEL_BAD_ARGUMENT;
     snprintf(error->text, sizeof error->text,
              "%.200s:%zu: '%.80s' is no ray; allowed is ox oy oz dx dy dz [tmin tmax [geom prim]]; "
              "nothing was written",
-             file->path, number, line);
+             file->path, lines->number, lines->line);
     return false;
+}
+
+static bool trace_lines(accel_tracing *tracing, const accel_file *file, FILE *out,
+                        accel_error *error)
+{
+    accel_ray_lines lines = accel_ray_lines_start(file);
+    accel_ray ray;
+    accel_ray_line found;
+    uint64_t rays = 0;
+    while ((found = accel_next_ray(&lines, &ray)) == ACCEL_RAY_LINE) {
+        write_hit(tracing, &ray, out);
+        accel_progress_show(&tracing->progress, "tracing",
+                            (double)(lines.at - file->bytes) / (double)file->size);
+        rays++;
+    }
+    if (found == ACCEL_NO_RAY_LINE) {
+        return refuse(file, &lines, error);
+    }
+    if (rays == 0) {
+        error->status = ACCEL_BAD_ARGUMENT;
+        snprintf(error->text, sizeof error->text, "%.200s: holds no ray; nothing was written",
+                 file->path);
+    }
+    return rays != 0;
 }
 
 bool accel_trace_text(accel_tracing *tracing, const char *path, FILE *out, accel_error *error)
@@ -45,19 +63,7 @@ bool accel_trace_text(accel_tracing *tracing, const char *path, FILE *out, accel
     if (!accel_file_read(&file, path, error)) {
         return false;
     }
-    bool fine = true;
-    char *line = file.bytes;
-    char *const end = file.bytes + file.size;
-    for (size_t number = 1; fine && line < end; number++) {
-        char *stop = memchr(line, '\n', (size_t)(end - line));
-        stop = stop == NULL ? end : stop;
-        *stop = '\0';
-        line[strcspn(line, "\r")] = '\0';
-        fine = trace_line(tracing, &file, line, number, out, error);
-        accel_progress_show(&tracing->progress, "tracing",
-                            (double)(line - file.bytes) / (double)file.size);
-        line = stop + 1;
-    }
+    const bool fine = trace_lines(tracing, &file, out, error);
     accel_progress_clear(&tracing->progress);
     free(file.bytes);
     return fine;

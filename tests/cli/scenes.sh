@@ -33,6 +33,11 @@ printf 'v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 2 2\nf 1 2 3 4\nl 1 2\nf 1 2 5\n
 expect 0 info mixed.obj -a linear
 says "3 primitives"
 says "1 points and lines left out"
+for command in "check mixed.obj -n 100" "trace mixed.obj -o mixed.exr --size 8x8" "export mixed.obj -o mixed.inc"; do
+    # shellcheck disable=SC2086
+    expect 0 $command
+    grep -q "note: mixed.obj: 1 points and lines are left out$" err || fail "$command does not tell what is left out"
+done
 
 # A glTF: a buffer beside it, two nodes with the same mesh, one of them moved and scaled in double.
 {
@@ -56,11 +61,34 @@ complains "elsewhere/buffer.bin" info other.gltf
 sed "s,buffer.bin,$work/elsewhere/buffer.bin," two.gltf >absolute.gltf
 complains "buffer.bin" info absolute.gltf
 
+# What assimp reads is said to be unchecked; lines are left out there too, and matrices are in double.
+cat >two.dae <<'DAE'
+<?xml version="1.0"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+<asset><up_axis>Y_UP</up_axis></asset>
+<library_geometries><geometry id="g"><mesh>
+<source id="p"><float_array id="a" count="9">0 0 0 1 0 0 0 1 0</float_array><technique_common>
+<accessor source="#a" count="3" stride="3"><param name="X" type="float"/><param name="Y" type="float"/>
+<param name="Z" type="float"/></accessor></technique_common></source>
+<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+<triangles count="1"><input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p></triangles>
+<lines count="2"><input semantic="VERTEX" source="#v" offset="0"/><p>0 1 1 2</p></lines>
+</mesh></geometry></library_geometries>
+<library_visual_scenes><visual_scene id="s"><node><instance_geometry url="#g"/></node>
+<node><translate>10 0 0</translate><instance_geometry url="#g"/></node></visual_scene></library_visual_scenes>
+<scene><instance_visual_scene url="#s"/></scene></COLLADA>
+DAE
+expect 0 info two.dae -a linear
+says "two.dae: 2 primitives in 2 geometries, box (0 0 0) to (11 1 0); 4 points and lines left out"
+grep -q "note: two.dae: 4 points and lines are left out; is read by assimp, unchecked" err ||
+    fail "two.dae is not said to be unchecked: $(cat err)"
+expect 0 export two.dae -o two.inc
+
 # A mesh without any triangle that a ray can hit is no error; a NaN is skipped and counted.
-sed 's/^1 0 0$/nan 0 0/' text.off >nan.off
-expect 0 info nan.off -a linear
+sed 's/\x00\x00\x80\x3f/\x00\x00\xc0\x7f/' binary.ply >nan.ply
+expect 0 info nan.ply -a linear
 says "3 invalid primitives, first (geometry/primitive) 0/0 0/1 0/3"
-expect 0 check nan.off -a grid -a bvh -n 100
+expect 0 check nan.ply -a grid -a bvh -n 100
 [ "$(grep -c 'warning: 3 of .* the first is geometry 0, primitive 0$' err)" = 1 ] ||
     fail "no warning, or more than one, of what is skipped: $(cat err)"
 

@@ -1,0 +1,256 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * Words, numbers and lines of text formats: see text.h.
+ */
+#include "text.h"
+
+#include <ctype.h>
+#include <float.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A number of text that is not read by one operation: this is more than the longest exact double
+ * in decimal has. */
+enum { LONGEST_NUMBER = 2000 };
+
+/* What counts and indices of too many digits become. */
+#define TOO_LARGE UINT64_C(999999999999999999)
+
+const unsigned char mesh_classes[256] = {
+    [' '] = MESH_BLANK,     ['\t'] = MESH_BLANK,    ['\v'] = MESH_BLANK, ['\f'] = MESH_BLANK,
+    ['\n'] = MESH_LINE_END, ['\r'] = MESH_LINE_END, ['0'] = MESH_DIGIT,  ['1'] = MESH_DIGIT,
+    ['2'] = MESH_DIGIT,     ['3'] = MESH_DIGIT,     ['4'] = MESH_DIGIT,  ['5'] = MESH_DIGIT,
+    ['6'] = MESH_DIGIT,     ['7'] = MESH_DIGIT,     ['8'] = MESH_DIGIT,  ['9'] = MESH_DIGIT,
+};
+
+bool mesh_joins(const mesh_text *text, const char *at)
+{
+    const char *next = at + 1;
+    while (next < text->end && mesh_is(*next, MESH_BLANK)) {
+        next++;
+    }
+    if (next == text->end) {
+        return true;
+    }
+    if (!mesh_is(*next, MESH_LINE_END)) {
+        return false;
+    }
+    mesh_text after = *text;
+    after.at = next;
+    mesh_take_line_end(&after);
+    return at == text->begin || mesh_is(at[-1], MESH_BLANK) || after.at == text->end ||
+           mesh_is(*after.at, MESH_BLANK | MESH_LINE_END);
+}
+
+void mesh_skip_rest(mesh_text *text)
+{
+    while (text->at < text->end) {
+        if (mesh_is(*text->at, MESH_BLANK)) {
+            text->at++;
+        } else if (text->joins && *text->at == '\\' && mesh_joins(text, text->at)) {
+            text->at++;
+            while (!mesh_at_line_end(text)) {
+                text->at++;
+            }
+            mesh_take_line_end(text);
+        } else if (text->comment != 0 && *text->at == text->comment) {
+            mesh_skip_line(text);
+            return;
+        } else {
+            return;
+        }
+    }
+}
+
+void mesh_skip_line(mesh_text *text)
+{
+    while (!mesh_at_line_end(text)) {
+        text->at++;
+    }
+}
+
+bool mesh_skip_lines(mesh_text *text)
+{
+    while (text->at < text->end && mesh_is(*text->at, MESH_LINE_END)) {
+        mesh_take_line_end(text);
+        mesh_skip_blanks(text);
+    }
+    return text->at < text->end;
+}
+
+size_t mesh_take_word(mesh_text *text, const char **word)
+{
+    *word = text->at;
+    while (!mesh_word_ends(text, text->at)) {
+        text->at++;
+    }
+    return (size_t)(text->at - *word);
+}
+
+bool mesh_same_word(const char *word, size_t length, const char *wanted)
+{
+    for (size_t i = 0; i < length; i++) {
+        if (wanted[i] == '\0' ||
+            tolower((unsigned char)word[i]) != tolower((unsigned char)wanted[i])) {
+            return false;
+        }
+    }
+    return wanted[length] == '\0';
+}
+
+bool mesh_take_this(mesh_text *text, const char *wanted)
+{
+    const char *word;
+    const size_t length = mesh_take_word(text, &word);
+    const bool same = length != 0 && mesh_same_word(word, length, wanted);
+    text->at = same ? text->at : word;
+    return same;
+}
+
+/* The digits of a number and the power of ten that they are multiplied with. */
+typedef struct decimal {
+    uint64_t digits; /* modulo 2^64 */
+    size_t count;    /* of digits, leading zeros too */
+    int exponent;
+} decimal;
+
+/* Scans the digits and the point of a number. Returns its end. */
+static const char *scan_digits(const char *at, const char *end, decimal *d)
+{
+    const char *const begin = at;
+    uint64_t digits = 0;
+    for (; at < end && (unsigned char)(*at - '0') < 10; at++) {
+        digits = 10 * digits + (unsigned char)(*at - '0');
+    }
+    d->count = (size_t)(at - begin);
+    if (at < end && *at == '.') {
+        const char *const behind = ++at;
+        for (; at < end && (unsigned char)(*at - '0') < 10; at++) {
+            digits = 10 * digits + (unsigned char)(*at - '0');
+        }
+        d->count += (size_t)(at - behind);
+        d->exponent = at - behind < 1000 ? -(int)(at - behind) : -1000;
+    }
+    d->digits = digits;
+    return at;
+}
+
+/* Scans the exponent. Returns its end, or NULL where it has no digit. */
+static const char *scan_exponent(const char *at, const char *end, decimal *d)
+{
+    const bool negative = ++at < end && *at == '-';
+    at += at < end && (*at == '-' || *at == '+');
+    const char *const begin = at;
+    int exponent = 0;
+    for (; at < end && mesh_is(*at, MESH_DIGIT); at++) {
+        exponent = exponent < 100000 ? 10 * exponent + (*at - '0') : exponent;
+    }
+    d->exponent += negative ? -exponent : exponent;
+    return at == begin ? NULL : at;
+}
+
+/* By strtod. False: it is too long, or too large for a double, or there is no locale. */
+static bool convert(const mesh_text *text, const char *begin, size_t length, double *number)
+{
+    char copy[LONGEST_NUMBER + 1];
+    if (length > LONGEST_NUMBER || text->c_locale == (locale_t)0) {
+        return false;
+    }
+    memcpy(copy, begin, length);
+    copy[length] = '\0';
+    *number = strtod_l(copy, NULL, text->c_locale);
+    return *number <= DBL_MAX && *number >= -DBL_MAX;
+}
+
+/* One operation on exact operands rounds correctly; it must not be rounded twice. */
+static bool is_one_operation(const decimal *d)
+{
+    return FLT_EVAL_METHOD == 0 && d->count <= 19 && d->digits <= UINT64_C(1) << 53 &&
+           d->exponent >= -22 && d->exponent <= 22;
+}
+
+bool mesh_take_number(mesh_text *text, double *number)
+{
+    static const double powers[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+                                    1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
+                                    1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+    const char *const begin = text->at;
+    decimal d = {0, 0, 0};
+    const char *at = begin;
+    at += at < text->end && (*at == '-' || *at == '+');
+    at = scan_digits(at, text->end, &d);
+    if (d.count != 0 && at < text->end && (*at == 'e' || *at == 'E')) {
+        at = scan_exponent(at, text->end, &d);
+    }
+    if (d.count == 0 || at == NULL || !mesh_word_ends(text, at)) {
+        return false;
+    }
+    if (is_one_operation(&d)) {
+        const double digits = (double)d.digits;
+        *number = d.exponent < 0 ? digits / powers[-d.exponent] : digits * powers[d.exponent];
+        *number = *begin == '-' ? -*number : *number;
+    } else if (!convert(text, begin, (size_t)(at - begin), number)) {
+        return false;
+    }
+    text->at = at;
+    return true;
+}
+
+bool mesh_take_integer(mesh_text *text, int64_t *number)
+{
+    const char *at = text->at;
+    const bool negative = at < text->end && *at == '-';
+    at += at < text->end && (*at == '-' || *at == '+');
+    const char *const begin = at;
+    uint64_t digits = 0;
+    for (; at < text->end && (unsigned char)(*at - '0') < 10; at++) {
+        digits = 10 * digits + (unsigned char)(*at - '0');
+    }
+    if (at == begin) {
+        return false;
+    }
+    digits = at - begin > 18 ? TOO_LARGE : digits;
+    *number = negative ? -(int64_t)digits : (int64_t)digits;
+    text->at = at;
+    return true;
+}
+
+bool mesh_take_count(mesh_text *text, uint64_t *count)
+{
+    const char *const begin = text->at;
+    int64_t number;
+    if (begin == text->end || !mesh_is(*begin, MESH_DIGIT) || !mesh_take_integer(text, &number) ||
+        number == (int64_t)TOO_LARGE || !mesh_word_ends(text, text->at)) {
+        text->at = begin;
+        return false;
+    }
+    *count = (uint64_t)number;
+    return true;
+}
+
+const char *mesh_quote(const char *word, size_t length, char found[MESH_FOUND_TEXT])
+{
+    const size_t most = MESH_FOUND_TEXT - 6, shown = length < most ? length : most;
+    char *to = found;
+    *to++ = '\'';
+    for (size_t i = 0; i < shown; i++) {
+        *to++ = (char)(word[i] >= ' ' && word[i] <= '~' ? word[i] : '?');
+    }
+    snprintf(to, 5, "%s'", shown < length ? "..." : "");
+    return found;
+}
+
+const char *mesh_found(const mesh_text *text, char found[MESH_FOUND_TEXT])
+{
+    if (text->at == text->end) {
+        return "the end of the file";
+    }
+    if (mesh_at_line_end(text)) {
+        return "the end of the line";
+    }
+    mesh_text copy = *text;
+    const char *word;
+    const size_t length = mesh_take_word(&copy, &word);
+    return mesh_quote(word, length == 0 ? 1 : length, found);
+}
