@@ -47,6 +47,13 @@ void check_text(const char *text)
     }
 }
 
+bool same_build(const accel_info *a, const accel_info *b)
+{
+    return strcmp(a->kind, b->kind) == 0 && strcmp(a->config, b->config) == 0 &&
+           a->nodes == b->nodes && a->leaves == b->leaves && a->references == b->references &&
+           a->depth == b->depth && a->size_classes == b->size_classes && a->clusters == b->clusters;
+}
+
 /* ------------------------------------------------------------------- heap ---- */
 
 struct head {
@@ -69,7 +76,6 @@ static bool heap_refuses(struct heap *h, size_t from, size_t to)
     return full || told;
 }
 
-/* Always moves a block, so that what points into the old one is noticed. */
 void *heap_resize(void *user, void *old, size_t from, size_t to)
 {
     struct heap *h = user;

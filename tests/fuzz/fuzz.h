@@ -8,9 +8,7 @@
 #ifndef TESTS_FUZZ_H
 #define TESTS_FUZZ_H
 
-#include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
+#include "accel/accel.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size);
 
@@ -41,9 +39,12 @@ static inline uint32_t take_below(struct bytes *b, uint32_t n)
  * UTF-8, no control characters. */
 void check_text(const char *text);
 
-/* Takes all memory that the queries and builds under test ask for: at most `most` bytes at a time,
- * from the fail_at-th call on, counted from 1, none where `fail_on`, else not for that call. Every
- * size that it is told is compared with what it gave. For accel_hooks.resize. */
+/* Did two builds make the same? All but the times and what queries built is compared. */
+bool same_build(const accel_info *a, const accel_info *b);
+
+/* An allocator that holds `most` bytes at a time, and refuses its fail_at-th call, counted from 1, and
+ * with `fail_on` all calls after it. It checks every size that it is told, and always moves a block.
+ * For accel_hooks.resize. */
 struct heap {
     size_t held, blocks, most;
     uint64_t calls, fail_at;
