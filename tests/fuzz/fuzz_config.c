@@ -109,16 +109,16 @@ static void make_scene(struct test_scene *s)
 {
     scene_open(s);
     struct part *p = scene_part(s, ACCEL_TRIANGLES);
-    for (int i = 0; i < 27; i++) {
-        const double x = i % 3, y = i / 3 % 3, z = i / 9;
+    for (int i = 0; i < 8; i++) {
+        const double x = i % 2, y = i / 2 % 2, z = i / 4;
         part_triangle(p, (const double[]){x, y, z}, (const double[]){x + 1, y, z},
                       (const double[]){x, y + 0.5, z + 0.25});
     }
     part_triangle(p, (const double[]){-50, -50, 0}, (const double[]){50, -50, 0},
                   (const double[]){0, 50, 1});
     p = scene_part(s, ACCEL_SPHERES);
-    for (int i = 0; i < 12; i++)
-        part_sphere(p, (const double[]){30 + 0.1 * i, 30 - 0.1 * (i % 4), 2}, 0.05);
+    for (int i = 0; i < 4; i++)
+        part_sphere(p, (const double[]){30 + 0.1 * i, 30 - 0.1 * (i % 2), 2}, 0.05);
     p = scene_part(s, ACCEL_OBJECTS);
     part_object(p, &(accel_box){{-1, -1, -1}, {1, 1, 1}}, CRATE,
                 (const double[]){-1, -1, -1, 1, 1, 1});
