@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Runs a fuzz target without a fuzzer, as an ordinary test: on each file that is named, or lies in a
- * folder that is named, and on some beginnings of it and some copies with one bit flipped.
+ * Runs a fuzz target without a fuzzer, as an ordinary test: on each file that is named, or lies in
+ * a folder that is named, and on some beginnings of it and some copies with one bit flipped.
  */
 #define _POSIX_C_SOURCE 200809L
 #include "fuzz.h"

@@ -348,9 +348,11 @@ static void add_copies(struct decoder *d, struct test_scene *s)
 
 static void decode_lattice(struct decoder *d)
 {
-    static const int steps[] = {0, 0, 0, 0, -3, 30, -30, -1070, -1022, 990, 300, -300, -52, 8, 1, -60};
-    static const double offsets[] = {0.0,    0.0,     0.0,    0.0,      1e6,    0x1p52, -0x1p30, 1e-300,
-                                     0x1p-3, -1000.0, 0x1p20, 0x1p999, -1e300, 0.1,    1e9,     -7.0};
+    static const int steps[] = {0,     0,   0,   0,    -3,  30, -30, -1070,
+                                -1022, 990, 300, -300, -52, 8,  1,   -60};
+    static const double offsets[] = {0.0,     0.0,    0.0,    0.0,     1e6,    0x1p52,
+                                     -0x1p30, 1e-300, 0x1p-3, -1000.0, 0x1p20, 0x1p999,
+                                     -1e300,  0.1,    1e9,    -7.0};
     const uint8_t how = take(&d->bytes);
     d->step = ldexp(1.0, steps[how & 15]);
     d->offset = offsets[how >> 4];
@@ -390,7 +392,8 @@ static void lay_out(struct decoder *d, struct host_scene *s, uint32_t g)
     accel_triangles *t = &s->made.geometry[g].triangles;
     const uint8_t how = take(&d->bytes);
     const bool floats = how & 1;
-    const size_t size = 3 * (floats ? sizeof(float) : sizeof(double)), stride = size + (how >> 1) % 9;
+    const size_t size = 3 * (floats ? sizeof(float) : sizeof(double)),
+                 stride = size + (how >> 1) % 9;
     char *to = must_resize(NULL, t->vertex_count ? stride * (t->vertex_count - 1) + size : 0);
     for (uint32_t i = 0; i < t->vertex_count; i++) {
         const double *from = (const double *)t->vertices + 3 * (size_t)i;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * A fuzzer's bytes as a config, a scene and rays. Most numbers lie on a small lattice, a few steps of
- * the last bit beside it, or were there before, so that planes, edges, boxes and ends of intervals
- * coincide all the time; some are any 64 bits.
+ * A fuzzer's bytes as a config, a scene and rays. Most numbers lie on a small lattice, a few steps
+ * of the last bit beside it, or were there before, so that planes, edges, boxes and ends of
+ * intervals coincide all the time; some are any 64 bits.
  */
 #ifndef TESTS_FUZZ_DECODE_H
 #define TESTS_FUZZ_DECODE_H

@@ -72,7 +72,8 @@ static bool heap_refuses(struct heap *h, size_t from, size_t to)
 {
     h->calls++;
     const bool full = to > from && h->held - from + to > h->most;
-    const bool told = h->fail_at && (h->calls == h->fail_at || (h->fail_on && h->calls > h->fail_at));
+    const bool told =
+        h->fail_at && (h->calls == h->fail_at || (h->fail_on && h->calls > h->fail_at));
     return full || told;
 }
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * What the fuzz targets share. A target is one file with LLVMFuzzerTestOneInput; libFuzzer drives it
- * (tests/fuzz.sh), or corpus.c, which any compiler builds, with the inputs of corpus/.
+ * What the fuzz targets share. A target is one file with LLVMFuzzerTestOneInput; libFuzzer drives
+ * it (tests/fuzz.sh), or corpus.c, which any compiler builds, with the inputs of corpus/.
  *
  * Any bytes are a legal input. What must hold for all of them is said by broken().
  */
@@ -35,16 +35,16 @@ static inline uint32_t take_below(struct bytes *b, uint32_t n)
     return take(b) % n;
 }
 
-/* Ends in broken() unless an error's text is one line that a terminal may be shown: not empty, valid
- * UTF-8, no control characters. */
+/* Ends in broken() unless an error's text is one line that a terminal may be shown: not empty,
+ * valid UTF-8, no control characters. */
 void check_text(const char *text);
 
 /* Did two builds make the same? All but the times and what queries built is compared. */
 bool same_build(const accel_info *a, const accel_info *b);
 
-/* An allocator that holds `most` bytes at a time, and refuses its fail_at-th call, counted from 1, and
- * with `fail_on` all calls after it. It checks every size that it is told, and always moves a block.
- * For accel_hooks.resize. */
+/* An allocator that holds `most` bytes at a time, and refuses its fail_at-th call, counted from 1,
+ * and with `fail_on` all calls after it. It checks every size that it is told, and always moves a
+ * block. For accel_hooks.resize. */
 struct heap {
     size_t held, blocks, most;
     uint64_t calls, fail_at;

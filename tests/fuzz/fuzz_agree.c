@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Any scene, any kind with any options, any rays: the answers are linear's, bit for bit, in whatever
- * floating-point mode; the structure passes accel_validate before and after the rays; its resolved
- * config builds the same again; a build without memory or that is cancelled holds nothing, and its
- * progress never falls.
+ * Any scene, any kind with any options, any rays: the answers are linear's, bit for bit, in
+ * whatever floating-point mode; the structure passes accel_validate before and after the rays; its
+ * resolved config builds the same again; a build without memory or that is cancelled holds nothing,
+ * and its progress never falls.
  */
 #include <string.h>
 #include <sys/syscall.h>
@@ -18,9 +18,9 @@ enum { MOST_RAYS = 24, MOST_BYTES = 1 << 21 };
 
 /* ------------------------------------------------------------------ clock ---- */
 
-/* Builds look at the clock to tell how far they are, every few milliseconds. Here time passes at each
- * look, so that small builds tell as well, and the same on every machine. The linker sends calls of
- * clock_gettime here. */
+/* Builds look at the clock to tell how far they are, every few milliseconds. Here time passes at
+ * each look, so that small builds tell as well, and the same on every machine. The linker sends
+ * calls of clock_gettime here. */
 static long hurry; /* nanoseconds for each look, or 0: the real clock */
 
 int __wrap_clock_gettime(clockid_t clock, struct timespec *now);
@@ -167,15 +167,15 @@ static bool in_order(void *user, const accel_hit *hit)
         o->first = *hit;
     else if (is_native(o->t, hit) && is_native(o->t, &o->last) &&
              (hit->t < o->last.t ||
-              (hit->t == o->last.t && (hit->geom < o->last.geom || (hit->geom == o->last.geom &&
-                                                                    hit->prim <= o->last.prim)))))
+              (hit->t == o->last.t && (hit->geom < o->last.geom ||
+                                       (hit->geom == o->last.geom && hit->prim <= o->last.prim)))))
         broken("linear: a hit at %a comes after one at %a", hit->t, o->last.t);
     o->last = *hit;
     return o->count < ALL_HITS;
 }
 
-/* What the other kinds cannot tell of the judge, as they ask the same code: the first of all hits is
- * the nearest, all are in order, and before the nearest there is none. */
+/* What the other kinds cannot tell of the judge, as they ask the same code: the first of all hits
+ * is the nearest, all are in order, and before the nearest there is none. */
 static void check_judge(const struct trial *t, const accel_ray *ray, const struct answer *answer)
 {
     struct order o = {.t = t, .ray = ray};
@@ -183,8 +183,8 @@ static void check_judge(const struct trial *t, const accel_ray *ray, const struc
     before.tmax = answer->closest.t;
     mode_enter(t->mode);
     accel_all(t->judge, ray, in_order, &o, NULL);
-    const bool any = answer->hit && is_native(t, &answer->closest) &&
-                     accel_any(t->judge, &before, NULL);
+    const bool any =
+        answer->hit && is_native(t, &answer->closest) && accel_any(t->judge, &before, NULL);
     mode_leave();
     if (answer->illegal)
         broken("linear: %s", answer->illegal);
@@ -283,18 +283,19 @@ static void check_again(const struct trial *t, const accel_info *info)
         again.nodes != info->nodes || again.leaves != info->leaves ||
         again.references != info->references || again.depth != info->depth ||
         again.size_classes != info->size_classes || again.clusters != info->clusters)
-        broken("%s, %s, resolved to %s, which builds %s: %llu and %llu nodes, %llu and %llu leaves, "
-               "%llu and %llu references",
-               t->config, t->mode->name, info->config, again.config,
-               (unsigned long long)info->nodes, (unsigned long long)again.nodes,
-               (unsigned long long)info->leaves, (unsigned long long)again.leaves,
-               (unsigned long long)info->references, (unsigned long long)again.references);
+        broken(
+            "%s, %s, resolved to %s, which builds %s: %llu and %llu nodes, %llu and %llu leaves, "
+            "%llu and %llu references",
+            t->config, t->mode->name, info->config, again.config, (unsigned long long)info->nodes,
+            (unsigned long long)again.nodes, (unsigned long long)info->leaves,
+            (unsigned long long)again.leaves, (unsigned long long)info->references,
+            (unsigned long long)again.references);
 }
 
 /* ------------------------------------------------------------------ builds ---- */
 
-/* A build whose when-th allocation fails, or all from there on, or that is cancelled. Lazy parts are
- * built by the rays, with the same heap. */
+/* A build whose when-th allocation fails, or all from there on, or that is cancelled. Lazy parts
+ * are built by the rays, with the same heap. */
 static void check_misfortune(struct trial *t)
 {
     struct watch w = watch_start();

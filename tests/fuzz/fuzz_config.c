@@ -160,8 +160,7 @@ static void check_again(const char *config, const struct mode *mode, const accel
     if (build(info->config, mode, &again, &error) != ACCEL_OK)
         broken("%s, resolved to %s: %s", config, info->config, error.text);
     if (!same_build(info, &again))
-        broken("%s, resolved to %s, builds something else: %s", config, info->config,
-               again.config);
+        broken("%s, resolved to %s, builds something else: %s", config, info->config, again.config);
 }
 
 static void check(const char *config, const struct mode *mode, bool legal)
