@@ -64,9 +64,37 @@ static void point_at_row(exr_encode_pipeline_t *encoder, const accel_image *imag
     }
 }
 
+/* OpenEXRCore's own compression of a chunk. */
+typedef struct compression {
+    exr_result_t (*run)(exr_encode_pipeline_t *encoder);
+} compression;
+
+/* Readers take a chunk that is as long as its pixels as the pixels themselves, but OpenEXRCore
+ * before 3.4.8 writes its ZIP there, if that has just this length: issue 2306 of openexr. */
+static exr_result_t compress(exr_encode_pipeline_t *encoder)
+{
+    const compression *standard = encoder->encoding_user_data;
+    const exr_result_t result = standard->run(encoder);
+    if (result == EXR_ERR_SUCCESS && encoder->compressed_bytes == encoder->packed_bytes) {
+        memcpy(encoder->compressed_buffer, encoder->packed_buffer, encoder->packed_bytes);
+    }
+    return result;
+}
+
+static exr_result_t choose_routines(exr_context_t context, exr_encode_pipeline_t *encoder,
+                                    compression *standard)
+{
+    const exr_result_t result = exr_encoding_choose_default_routines(context, 0, encoder);
+    *standard = (compression){encoder->compress_fn};
+    encoder->encoding_user_data = standard;
+    encoder->compress_fn = standard->run == NULL ? NULL : compress;
+    return result;
+}
+
 static exr_result_t write_rows(exr_context_t context, const accel_image *image)
 {
     exr_encode_pipeline_t encoder = EXR_ENCODE_PIPELINE_INITIALIZER;
+    compression standard;
     int32_t rows = 1;
     exr_result_t result = exr_get_scanlines_per_chunk(context, 0, &rows);
     for (uint32_t y = 0; y < image->height && result == EXR_ERR_SUCCESS; y += (uint32_t)rows) {
@@ -78,7 +106,7 @@ static exr_result_t write_rows(exr_context_t context, const accel_image *image)
         }
         if (result == EXR_ERR_SUCCESS) {
             point_at_row(&encoder, image, y);
-            result = y == 0 ? exr_encoding_choose_default_routines(context, 0, &encoder) : result;
+            result = y == 0 ? choose_routines(context, &encoder, &standard) : result;
         }
         if (result == EXR_ERR_SUCCESS) {
             result = exr_encoding_run(context, 0, &encoder);

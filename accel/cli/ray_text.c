@@ -4,10 +4,11 @@
  */
 #include "ray_text.h"
 
-#include "words.h"
-
+#include <ctype.h>
+#include <errno.h>
 #include <inttypes.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 void accel_write_ray(const accel_ray *ray, char text[ACCEL_RAY_TEXT])
@@ -25,17 +26,32 @@ void accel_write_ray(const accel_ray *ray, char text[ACCEL_RAY_TEXT])
     }
 }
 
-static bool read_ray_word(const char *word, int i, accel_ray *ray)
+/* Words may be of any length: strtod and strtoull end at the blank, the comma or the end behind. */
+static bool read_number(const char *word, size_t length, double *out)
 {
-    uint64_t id = 0;
+    char *end;
+    *out = strtod(word, &end);
+    return end == word + length && !isspace((unsigned char)word[0]);
+}
+
+static bool read_id(const char *word, size_t length, uint32_t *out)
+{
+    char *end;
+    errno = 0;
+    const unsigned long long value = strtoull(word, &end, 10);
+    *out = (uint32_t)value;
+    return isdigit((unsigned char)word[0]) && end == word + length && errno == 0 &&
+           value <= UINT32_MAX;
+}
+
+static bool read_ray_word(const char *word, size_t length, int i, accel_ray *ray)
+{
     if (i >= 8) {
-        const bool fine = accel_read_whole(word, 0, UINT32_MAX, &id);
-        *(i == 8 ? &ray->skip.geom : &ray->skip.prim) = (uint32_t)id;
-        return fine;
+        return read_id(word, length, i == 8 ? &ray->skip.geom : &ray->skip.prim);
     }
     double *const numbers[8] = {&ray->org[0], &ray->org[1], &ray->org[2], &ray->dir[0],
                                 &ray->dir[1], &ray->dir[2], &ray->tmin,   &ray->tmax};
-    return accel_read_exact(word, numbers[i]);
+    return read_number(word, length, numbers[i]);
 }
 
 bool accel_read_ray(const char *text, accel_ray *ray)
@@ -43,14 +59,8 @@ bool accel_read_ray(const char *text, accel_ray *ray)
     *ray = (accel_ray){.tmax = (double)INFINITY, .skip = {ACCEL_NONE, ACCEL_NONE}};
     int words = 0;
     while (*(text += strspn(text, " \t,")) != '\0') {
-        char word[60];
         const size_t length = strcspn(text, " \t,");
-        if (length >= sizeof word || words == 10) {
-            return false;
-        }
-        memcpy(word, text, length);
-        word[length] = '\0';
-        if (!read_ray_word(word, words, ray)) {
+        if (words == 10 || !read_ray_word(text, length, words, ray)) {
             return false;
         }
         words++;

@@ -79,13 +79,6 @@ bool accel_read_number(const char *text, size_t length, double *out)
     return true;
 }
 
-bool accel_read_exact(const char *text, double *out)
-{
-    char *end;
-    *out = strtod(text, &end);
-    return end != text && *end == '\0' && !isspace((unsigned char)text[0]);
-}
-
 bool accel_read_whole(const char *text, uint64_t min, uint64_t max, uint64_t *out)
 {
     if (!isdigit((unsigned char)text[0])) {

@@ -21,9 +21,6 @@ void accel_nearest_offer(const char *typed, size_t length, const char *word, con
 /* Reads the whole of text[0..length) as a decimal number; no nan, no inf, no hex, no blanks. */
 bool accel_read_number(const char *text, size_t length, double *out);
 
-/* Reads the whole of `text` as any double that strtod takes: hex floats, inf, nan as well. */
-bool accel_read_exact(const char *text, double *out);
-
 /* Reads the whole of `text` as a decimal whole number in min..max. */
 bool accel_read_whole(const char *text, uint64_t min, uint64_t max, uint64_t *out);
 
