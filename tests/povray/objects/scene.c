@@ -17,7 +17,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { DEPTH = 3, RAYS_STREAM = 1000000 };
+/* An object has BUDGET shapes, or a few more. */
+enum { DEPTH = 3, BUDGET = 7, RAYS_STREAM = 1000000 };
 
 struct request {
     uint64_t seed;
@@ -41,7 +42,8 @@ static void write_flags(struct writer *w)
 
 static void write_texture(struct writer *w)
 {
-    write_pattern(w, " pigment { rgb @c transmit 0.75 } finish { ambient 0 emission 0.3 diffuse 0.4");
+    write_pattern(w, " pigment { rgb @c transmit 0.65 } finish { ambient 0 emission 0.3");
+    write_text(w, dice_chance(&w->dice, 0.3) ? " diffuse 0.4" : " diffuse 0");
     write_text(w, dice_chance(&w->dice, 0.05) ? " reflection 0.2 }" : " }");
 }
 
@@ -56,22 +58,27 @@ static void write_target(struct writer *w, bool wanted)
 static void write_small_lamp(struct writer *w)
 {
     write_pattern(w, "light_source { @p rgb 0.02 looks_like { sphere { 0, @r / 2 "
-                     "pigment { rgb @c transmit 0.75 } } [rotate @a] } }");
+                     "pigment { rgb @c transmit 0.65 } } [rotate @a] } }");
 }
 
 /* What stands at the top of a scene besides plain objects. */
 enum form { PLAIN, COPIES, LAMPS, LAMP_IN_UNION, LIGHT_GROUP, TARGET };
 
-static enum form draw_form(struct writer *w, bool photons)
+static enum form draw_form(struct writer *w, const struct world *world)
 {
     const double kind = dice_unit(&w->dice);
 
-    return kind < 0.62                ? PLAIN
-           : kind < 0.82              ? COPIES
-           : kind < 0.88              ? LAMPS
-           : kind < 0.92              ? LAMP_IN_UNION
-           : kind < 0.96 || !photons ? LIGHT_GROUP
-                                      : TARGET;
+    if (world->dark) {
+        return kind < 0.75 ? PLAIN : COPIES;
+    }
+    if (world->photons && kind < 0.1) {
+        return TARGET;
+    }
+    return kind < 0.65   ? PLAIN
+           : kind < 0.85 ? COPIES
+           : kind < 0.91 ? LAMPS
+           : kind < 0.95 ? LAMP_IN_UNION
+                         : LIGHT_GROUP;
 }
 
 static int write_copies(struct writer *w, const struct world *world, int number, int depth,
@@ -123,9 +130,9 @@ static int write_group(struct writer *w, const struct world *world, int depth, i
 
 /* Returns how many objects without bounds it makes at most. */
 static int write_object(struct writer *w, const struct world *world, int number, int wanted,
-                        bool photons, struct placement *p)
+                        struct placement *p)
 {
-    const enum form form = draw_form(w, photons);
+    const enum form form = draw_form(w, world);
     const int depth = (int)dice_below(&w->dice, DEPTH + 1);
 
     write_text(w, "// object %d, %s\n", number, shapes[wanted].name);
@@ -182,56 +189,56 @@ static void write_cameras(struct writer *w, const struct world *world, const str
     write_text(w, "#else camera { mesh_camera { 1 0 mesh { Rays } } location 0 }\n#end\n");
 }
 
-static void write_head(struct writer *w, const struct world *world, const struct ray_list *rays,
-                       bool photons)
+static void write_head(struct writer *w, const struct world *world, const struct ray_list *rays)
 {
     double light[3];
 
     write_text(w, "#version 3.7;\nglobal_settings { assumed_gamma 1 max_trace_level 12 "
-                  "adc_bailout 0.02%s }\nbackground { rgb <0.1, 0.2, 0.3> }\n",
-               photons ? " photons { count 500 autostop 0 }" : "");
+                  "adc_bailout 0.03%s }\nbackground { rgb <0.1, 0.2, 0.3> }\n",
+               world->photons ? " photons { count 500 autostop 0 }" : "");
     write_cameras(w, world, rays);
     for (int i = 0; i < 3; i++) {
         light[i] = world->offset[i] + 9.0 * world->scale * dice_range(&w->dice, -1.0, 1.0);
     }
-    write_text(w, "light_source { ");
-    write_vector(w, light);
-    write_text(w, " rgb 0.6 }\n\n");
+    if (!world->dark) {
+        write_text(w, "light_source { ");
+        write_vector(w, light);
+        write_text(w, " rgb 0.6 }\n\n");
+    }
 }
 
 /* Writes object number `number`, or without a file finds its place alone. Returns as write_object. */
 static int draw_object(FILE *out, const struct request *request, const struct world *world,
-                       int number, bool photons, struct placement *p)
+                       int number, struct placement *p)
 {
-    struct writer w = {out, dice_from(request->seed, (uint64_t)number + 1)};
+    struct writer w = {out, dice_from(request->seed, (uint64_t)number + 1), BUDGET};
     /* Shapes take turns over the seeds as well. */
     const uint64_t turn = request->seed * (uint64_t)request->count + (uint64_t)number;
     const int wanted = request->type >= 0 ? request->type : (int)(turn % (uint64_t)shape_count);
 
-    return write_object(&w, world, number, wanted, photons, p);
+    return write_object(&w, world, number, wanted, p);
 }
 
 static bool write_scene(FILE *out, const struct request *request)
 {
     const struct world world = draw_world(request->seed);
-    const bool photons = request->seed % 5 == 3;
-    struct writer head = {out, dice_from(request->seed, RAYS_STREAM)};
+    struct writer head = {out, dice_from(request->seed, RAYS_STREAM), 0};
     struct ray_list rays = {NULL, 0, 0};
     struct placement p = {{{0}}};
     int unbounded = 0;
 
     for (int i = 0; i < request->count; i++) {
         struct dice dice = dice_from(request->seed, RAYS_STREAM + (uint64_t)i + 1);
-        draw_object(NULL, request, &world, i, photons, &p);
+        draw_object(NULL, request, &world, i, &p);
         if (!add_rays(&rays, &dice, &p, request->rays)) {
             return false;
         }
     }
-    write_head(&head, &world, &rays, photons);
+    write_head(&head, &world, &rays);
     free(rays.corners);
     for (int i = 0; i < request->count; i++) {
         if (request->only < 0 || request->only == i) {
-            unbounded += draw_object(out, request, &world, i, photons, &p);
+            unbounded += draw_object(out, request, &world, i, &p);
         }
     }
     fprintf(out, "\n// unbounded %d\n", unbounded);
@@ -244,8 +251,8 @@ static bool write_scene(FILE *out, const struct request *request)
 static int usage(void)
 {
     fputs("usage: random_objects SEED [--count N] [--rays N] [--only NUMBER] [--type SHAPE]\n"
-          "  --count N      objects (default 40)\n"
-          "  --rays N       rays meant for each object (default 50)\n"
+          "  --count N      objects (default 30)\n"
+          "  --rays N       rays meant for each object (default 60)\n"
           "  --only NUMBER  writes one object alone, with the rays of all\n"
           "  --type SHAPE   of each object, where others take turns:\n  ",
           stderr);
@@ -292,7 +299,7 @@ static bool read_request(int argc, char **argv, struct request *request)
 
 int main(int argc, char **argv)
 {
-    struct request request = {.count = 40, .rays = 50, .only = -1, .type = -1};
+    struct request request = {.count = 30, .rays = 60, .only = -1, .type = -1};
 
     if (!read_request(argc, argv, &request)) {
         return usage();

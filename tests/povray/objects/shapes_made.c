@@ -383,10 +383,9 @@ void write_isosurface(struct writer *w)
 
 void write_julia_fractal(struct writer *w)
 {
-    static const char *const kinds[] = {
-        "quaternion sqr",   "quaternion cube",       "hypercomplex sqr",  "hypercomplex cube",
-        "hypercomplex exp", "hypercomplex sin",      "hypercomplex tanh", "hypercomplex reciprocal",
-        "hypercomplex cos", "hypercomplex pwr(2, 0)"};
+    static const char *const kinds[] = {"quaternion sqr",    "quaternion cube",  "hypercomplex sqr",
+                                        "hypercomplex cube", "hypercomplex exp", "hypercomplex sin",
+                                        "hypercomplex pwr(2, 0)"};
     const char *kind = PICK(w, kinds);
 
     write_pattern(w, "julia_fractal { <@s, @s, @s, @s / 5> ");

@@ -178,6 +178,7 @@ void write_modifiers(struct writer *w, struct reach *reach, int depth)
 {
     const uint32_t count = dice_below(&w->dice, 5);
 
+    depth = w->budget > 0 ? depth : 0;
     for (uint32_t i = 0; i < count; i++) {
         const double kind = dice_unit(&w->dice);
         if (kind < 0.15) {
@@ -220,6 +221,7 @@ static struct reach write_shape(struct writer *w, int which)
     if ((shape->traits & SHAPE_HIERARCHY) && dice_chance(&w->dice, 0.2)) {
         write_text(w, " hierarchy off");
     }
+    w->budget--;
     written_shapes[which] += w->out != NULL;
     return reach_of_shape(shape);
 }
@@ -234,7 +236,8 @@ static void write_own_texture(struct writer *w, bool plain)
 static struct reach write_csg(struct writer *w, int depth, int wanted, bool plain)
 {
     const int operation = (int)dice_below(&w->dice, OPERATIONS);
-    const int count = 1 + (int)dice_below(&w->dice, PARTS);
+    const int room = w->budget < PARTS ? w->budget : PARTS;
+    const int count = 1 + (int)dice_below(&w->dice, (uint32_t)room);
     const int place = (int)dice_below(&w->dice, (uint32_t)count);
     struct reach parts[PARTS];
 
@@ -255,7 +258,7 @@ static struct reach write_csg(struct writer *w, int depth, int wanted, bool plai
 
 struct reach write_tree(struct writer *w, int depth, int wanted, bool plain)
 {
-    const bool csg = depth > 0 && dice_chance(&w->dice, 0.5);
+    const bool csg = depth > 0 && w->budget > 1 && dice_chance(&w->dice, 0.5);
     struct reach reach;
 
     if (csg) {

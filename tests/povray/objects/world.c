@@ -20,6 +20,8 @@ struct world draw_world(uint64_t seed)
     struct world world = {.mixed = which >= count};
 
     world.scale = world.mixed ? 1.0 : scales[which];
+    world.dark = world.scale > 1e4;
+    world.photons = seed % 5 == 3 && !world.dark;
     /* Far away in half of the worlds, but not so far that rays end. */
     const bool far = dice_chance(&d, 0.5) && world.scale <= 1e3;
     const double distance = far ? world.scale * draw_decade(&d, 0, 3) : 0.0;
@@ -86,7 +88,7 @@ struct placement write_placement(struct writer *w, const struct world *world)
 {
     struct dice *d = &w->dice;
     const double scale = world->mixed ? draw_decade(d, -3, 4) : world->scale;
-    const double reach = world->mixed ? 20.0 * scale : 3.0 * scale;
+    const double reach = world->mixed ? 20.0 * scale : 4.0 * scale;
     double factor[3], degrees[3], at[3];
     struct placement p = identity();
 

@@ -13,6 +13,7 @@
 struct writer {
     FILE *out; /* NULL: write nothing */
     struct dice dice;
+    int budget; /* shapes that the object may still have */
 };
 
 /* Writes a pattern. Within it,
