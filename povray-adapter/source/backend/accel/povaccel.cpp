@@ -17,11 +17,8 @@
 #include <cstdlib>
 #include <cstring>
 #include <exception>
-#include <typeinfo>
 
-#include <boost/core/demangle.hpp>
 #include <boost/format.hpp>
-#include <boost/thread.hpp>
 
 // frame.h must always be the first POV file included (pulls in platform config)
 #include "backend/frame.h"
@@ -31,6 +28,7 @@
 
 #include "backend/accel/povaccel.h"
 #include "backend/accel/povaccelbox.h"
+#include "backend/accel/povaccelquery.h"
 #include "backend/control/messagefactory.h"
 #include "backend/control/renderbackend.h"
 #include "backend/render/trace.h"
@@ -45,53 +43,6 @@ namespace pov
 {
 
 using boost::format;
-
-/// One ray query: what the leaf tests need, and the best hit so far.
-struct AccelQuery
-{
-	const vector<ObjectPtr>& objects;
-	const Ray& ray;
-	const RayObjectCondition *precondition;
-	const RayObjectCondition *postcondition;
-	TraceThreadData *thread;
-	Intersection& best;
-	Intersection candidate;
-	BBOX_VECT origin;
-	BBOX_VECT invdir;
-	ObjectBase::BBoxDirection variant;
-	POV_ULONG leafTests;
-	POV_ULONG leafHits;
-
-	AccelQuery(const vector<ObjectPtr>& objs, const Ray& r, const RayObjectCondition *prec, const RayObjectCondition *postc,
-	           TraceThreadData *t, Intersection& bi) :
-		objects(objs), ray(r), precondition(prec), postcondition(postc), thread(t), best(bi), leafTests(0), leafHits(0)
-	{
-		// as BSPIntersectFunctor does
-		Vector3d tmp(1.0 / ray.GetDirection()[X], 1.0 / ray.GetDirection()[Y], 1.0 / ray.GetDirection()[Z]);
-		Assign_Vector(origin, ray.Origin);
-		Assign_Vector(invdir, *tmp);
-		variant = (ObjectBase::BBoxDirection)((int(invdir[X] < 0.0) << 2) | (int(invdir[Y] < 0.0) << 1) | int(invdir[Z] < 0.0));
-	}
-
-	bool MayHit(ObjectPtr object) const
-	{
-		return (precondition == NULL) || (*precondition)(ray, object, 0.0);
-	}
-
-	bool TestLeaf(ObjectPtr object)
-	{
-		if(postcondition != NULL)
-			return Find_Intersection(&candidate, object, ray, variant, origin, invdir, *postcondition, thread);
-		else
-			return Find_Intersection(&candidate, object, ray, variant, origin, invdir, thread);
-	}
-};
-
-static boost::mutex differenceMutex;
-static POV_ULONG differenceCount = 0;
-static const POV_ULONG differencesPrinted = 10;
-
-
 
 static bool Never_Hit(const ObjectBase *object)
 {
@@ -126,7 +77,7 @@ Accelerator::~Accelerator()
 	accel_free(structure);
 }
 
-static MessageFactory Messages(const SceneData& scene)
+MessageFactory Accelerator::Messages(const SceneData& scene)
 {
 	return MessageFactory(scene.warningLevel, OFFICIAL_VERSION_NUMBER, "Accelerator", scene.backendAddress, scene.frontendAddress, scene.sceneId, 0);
 }
@@ -283,7 +234,7 @@ void Accelerator::Build(const SceneData& scene, Task& task)
 	lightsLeftOut = scene.objects.size() - objects.size();
 	sceneData = &scene;
 
-	const vector<accel_box> boxes = Find_Boxes(scene, objects);
+	boxes = Find_Boxes(scene, objects);
 
 	accel_geometry geometry = accel_geometry();
 	geometry.type = ACCEL_OBJECTS;
@@ -308,6 +259,8 @@ void Accelerator::Build(const SceneData& scene, Task& task)
 	progress.RethrowIfStopped();
 	if(status != ACCEL_OK)
 		Throw_Library_Error(error);
+	if(verify == false)
+		vector<accel_box>().swap(boxes);
 }
 
 
@@ -331,35 +284,6 @@ bool Accelerator::FindIntersection(Trace& trace, TraceThreadData *thread, Inters
 	AccelQuery query(objects, ray, &precondition, &postcondition, thread, bestisect);
 
 	return Find(trace, query);
-}
-
-/// POV-Ray's linear search, as in Trace::FindIntersection. Improves best and index.
-static bool Search_Linearly(Trace& trace, const AccelQuery& query, Intersection& best, uint32_t& index)
-{
-	bool found = false;
-
-	for(size_t i = 0; i < query.objects.size(); i++)
-	{
-		if(query.MayHit(query.objects[i]) == true)
-		{
-			Intersection isect;
-			bool hit;
-
-			if(query.postcondition != NULL)
-				hit = trace.FindIntersection(query.objects[i], isect, query.ray, *query.postcondition);
-			else
-				hit = trace.FindIntersection(query.objects[i], isect, query.ray);
-
-			if(hit && (isect.Depth < best.Depth))
-			{
-				best = isect;
-				index = i;
-				found = true;
-			}
-		}
-	}
-
-	return found;
 }
 
 bool Accelerator::Find(Trace& trace, AccelQuery& query) const
@@ -391,39 +315,16 @@ bool Accelerator::Find(Trace& trace, AccelQuery& query) const
 	stats[Accel_Box_Tests] += counters.tests;
 	stats[Accel_Leaf_Tests] += query.leafTests;
 	stats[Accel_Leaf_Tests_Succeeded] += query.leafHits;
-	stats[Accel_Hits_Outside] += counters.outside;
 	stats[Accel_Rays_Refused] += counters.refused;
 
-	if(verify)
+	if(verify == false)
+		stats[Accel_Hits_Outside] += counters.outside;
+	else // counts them itself, and more of them
 		Verify(trace, query, limit, found, hit.prim);
 
 	return found;
 }
 
-
-/// A search for the objects around a point.
-struct AccelPointQuery
-{
-	const vector<ObjectPtr>& objects;
-	const DBL *point;
-	TraceThreadData *thread;
-	vector<ObjectPtr> found;
-
-	AccelPointQuery(const vector<ObjectPtr>& objs, const VECTOR p, TraceThreadData *t) : objects(objs), point(p), thread(t) { }
-
-	/// Tests an object as TracePixel::InitRayContainerState does. The box of each that passes holds the point.
-	void Test(ObjectPtr object)
-	{
-		if((object->interior != NULL) && Inside_BBox(point, object->BBox) && object->Inside(point, thread))
-			found.push_back(object);
-	}
-
-	void SearchLinearly()
-	{
-		for(vector<ObjectPtr>::const_iterator object = objects.begin(); object != objects.end(); object++)
-			Test(*object);
-	}
-};
 
 /// The library names the objects whose boxes hold a point, in the order of the scene.
 static bool Test_Point_In_Object(void *user, accel_id id)
@@ -455,82 +356,6 @@ void Accelerator::FindContainingInteriors(const VECTOR point, TraceThreadData *t
 		VerifyInteriors(point, thread, query.found);
 	for(vector<ObjectPtr>::const_iterator object = query.found.begin(); object != query.found.end(); object++)
 		interiors.push_back((*object)->interior);
-}
-
-
-
-/*****************************************************************************
- *
- * Accelerator_Verify
- *
- *****************************************************************************/
-
-void Accelerator::Verify(Trace& trace, const AccelQuery& query, DBL limit, bool found, uint32_t index) const
-{
-	Intersection linear;
-	uint32_t linearIndex = ACCEL_NONE;
-
-	linear.Depth = limit;
-	bool linearFound = Search_Linearly(trace, query, linear, linearIndex);
-
-	query.thread->Stats()[Accel_Queries_Verified]++;
-	if((found == linearFound) &&
-	   (!found || ((query.best.Object == linear.Object) && (memcmp(&query.best.Depth, &linear.Depth, sizeof(DBL)) == 0))))
-		return;
-
-	const VECTOR& o = query.ray.Origin;
-	const VECTOR& d = query.ray.Direction;
-	char ray[512];
-
-	snprintf(ray, sizeof(ray), "ray from <%.17g, %.17g, %.17g> along <%.17g, %.17g, %.17g> up to %.17g (%a %a %a, %a %a %a, %a)",
-	         o[X], o[Y], o[Z], d[X], d[Y], d[Z], limit, o[X], o[Y], o[Z], d[X], d[Y], d[Z], limit);
-	ReportDifference(query.thread, ray, Describe(found, index, query.best), Describe(linearFound, linearIndex, linear));
-}
-
-std::string Accelerator::Describe(bool found, uint32_t index, const Intersection& isect) const
-{
-	if(found == false)
-		return "nothing";
-
-	char depth[80];
-
-	sprintf(depth, "depth %.17g (%a)", isect.Depth, isect.Depth);
-	return str(format("object %u (%s) at %s") % index % boost::core::demangle(typeid(*objects[index]).name()) % depth);
-}
-
-void Accelerator::VerifyInteriors(const VECTOR point, TraceThreadData *thread, const vector<ObjectPtr>& found) const
-{
-	AccelPointQuery linear(objects, point, thread);
-
-	linear.SearchLinearly();
-	thread->Stats()[Accel_Queries_Verified]++;
-	if(found == linear.found)
-		return;
-
-	char text[256];
-
-	snprintf(text, sizeof(text), "point <%.17g, %.17g, %.17g> (%a %a %a)", point[X], point[Y], point[Z], point[X], point[Y], point[Z]);
-	ReportDifference(thread, text, str(format("%d objects around it") % found.size()), str(format("%d objects") % linear.found.size()));
-}
-
-void Accelerator::ReportDifference(TraceThreadData *thread, const std::string& query, const std::string& ours, const std::string& linear) const
-{
-	thread->Stats()[Accel_Queries_Different]++;
-	{
-		boost::mutex::scoped_lock lock(differenceMutex);
-
-		if(++differenceCount > differencesPrinted)
-			return;
-	}
-
-	Messages(*sceneData).PossibleError("%s: the accelerator finds %s, the linear search %s.", query.c_str(), ours.c_str(), linear.c_str());
-}
-
-bool Accelerator::DifferenceWasFound()
-{
-	boost::mutex::scoped_lock lock(differenceMutex);
-
-	return (differenceCount > 0);
 }
 
 
@@ -605,7 +430,9 @@ void Accelerator::GetStatistics(POVMS_Object& renderStats, const RenderStatistic
 		text += str(format("Accelerator verified: %13d   Differences:     %15d\n") % verified % different);
 	if(refused > 0)
 		text += str(format("Accelerator refused:  %13d   (rays that are not finite; searched linearly)\n") % refused);
-	if(outside > 0)
+	if(verified > 0)
+		text += str(format("Accelerator outside:  %13d   (of all hits of all objects: outside the box of their object)\n") % outside);
+	else if(outside > 0)
 		text += str(format("Accelerator outside:  %13d   (hits before their box: its padding may be too small)\n") % outside);
 	if(text.empty() == false)
 		renderStats.SetString(kPOVAttrib_AcceleratorText, text.c_str());

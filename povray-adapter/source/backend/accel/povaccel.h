@@ -16,6 +16,7 @@
 #ifndef POVRAY_BACKEND_POVACCEL_H
 #define POVRAY_BACKEND_POVACCEL_H
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,7 @@
 namespace pov
 {
 
+class MessageFactory;
 class SceneData;
 class Task;
 class Trace;
@@ -62,8 +64,8 @@ class Accelerator
 		/// Describes what a render built of a lazy structure, what is not usual, and the result of Accelerator_Verify.
 		void GetStatistics(POVMS_Object& renderStats, const RenderStatistics& stats) const;
 
-		/// Did Accelerator_Verify find a difference anywhere in this process?
-		static bool DifferenceWasFound();
+		/// Did Accelerator_Verify find a difference, or a hit outside its box, anywhere in this process?
+		static bool FaultWasFound();
 	private:
 		/// was method 3 asked for?
 		bool chosen;
@@ -81,12 +83,22 @@ class Accelerator
 		accel *structure;
 		/// for messages from the render threads, which outlive no scene
 		const SceneData *sceneData;
+		/// the boxes of objects, kept for Accelerator_Verify
+		vector<accel_box> boxes;
+		/// objects with a hit outside their box that were named in a message
+		mutable std::set<uint32_t> namedOutside;
+
+		class BoxCheck;
 
 		bool Find(Trace& trace, AccelQuery& query) const;
 		void Verify(Trace& trace, const AccelQuery& query, DBL limit, bool found, uint32_t index) const;
 		void VerifyInteriors(const VECTOR point, TraceThreadData *thread, const vector<ObjectPtr>& found) const;
+		void ReportOutside(const AccelQuery& query, uint32_t index, DBL depth) const;
 		void ReportDifference(TraceThreadData *thread, const std::string& query, const std::string& ours, const std::string& linear) const;
+		std::string DescribeObject(uint32_t index) const;
 		std::string Describe(bool found, uint32_t index, const Intersection& isect) const;
+
+		static MessageFactory Messages(const SceneData& scene);
 
 		/// not available
 		Accelerator(const Accelerator&);

@@ -1,0 +1,106 @@
+/*******************************************************************************
+ * povaccelquery.h
+ *
+ * SPDX-License-Identifier: AGPL-3.0-or-later
+ *
+ * This module contains all defines, typedefs, and prototypes for
+ * povaccelquery.cpp: one query under way, as POV-Ray's tests of single objects
+ * see it, and POV-Ray's linear search for it. It is a derivative work of POV-Ray
+ * 3.7.0.10; see LICENSE.
+ *******************************************************************************/
+
+#ifndef POVRAY_BACKEND_POVACCELQUERY_H
+#define POVRAY_BACKEND_POVACCELQUERY_H
+
+#include <vector>
+
+#include "backend/frame.h"
+#include "backend/scene/objects.h"
+#include "backend/support/statistics.h"
+#include "backend/accel/accel.h"
+
+namespace pov
+{
+
+class Trace;
+
+/// One ray query: what the leaf tests need, and the best hit so far.
+struct AccelQuery
+{
+	const vector<ObjectPtr>& objects;
+	const Ray& ray;
+	const RayObjectCondition *precondition;
+	const RayObjectCondition *postcondition;
+	TraceThreadData *thread;
+	Intersection& best;
+	Intersection candidate;
+	BBOX_VECT origin;
+	BBOX_VECT invdir;
+	ObjectBase::BBoxDirection variant;
+	POV_ULONG leafTests;
+	POV_ULONG leafHits;
+
+	AccelQuery(const vector<ObjectPtr>& objs, const Ray& r, const RayObjectCondition *prec, const RayObjectCondition *postc,
+	           TraceThreadData *t, Intersection& bi) :
+		objects(objs), ray(r), precondition(prec), postcondition(postc), thread(t), best(bi), leafTests(0), leafHits(0)
+	{
+		// as BSPIntersectFunctor does
+		Vector3d tmp(1.0 / ray.GetDirection()[X], 1.0 / ray.GetDirection()[Y], 1.0 / ray.GetDirection()[Z]);
+		Assign_Vector(origin, ray.Origin);
+		Assign_Vector(invdir, *tmp);
+		variant = (ObjectBase::BBoxDirection)((int(invdir[X] < 0.0) << 2) | (int(invdir[Y] < 0.0) << 1) | int(invdir[Z] < 0.0));
+	}
+
+	bool MayHit(ObjectPtr object) const
+	{
+		return (precondition == NULL) || (*precondition)(ray, object, 0.0);
+	}
+
+	bool TestLeaf(ObjectPtr object)
+	{
+		if(postcondition != NULL)
+			return Find_Intersection(&candidate, object, ray, variant, origin, invdir, *postcondition, thread);
+		else
+			return Find_Intersection(&candidate, object, ray, variant, origin, invdir, thread);
+	}
+};
+
+/// Sees every hit of a linear search: the nearest of each object.
+class AccelHitObserver
+{
+	public:
+		virtual void See(uint32_t index, const Intersection& isect) = 0;
+	protected:
+		~AccelHitObserver() { }
+};
+
+/// POV-Ray's linear search, as in Trace::FindIntersection. Improves best and index.
+bool Search_Linearly(Trace& trace, const AccelQuery& query, Intersection& best, uint32_t& index, AccelHitObserver *observer = NULL);
+
+/// A search for the objects around a point.
+struct AccelPointQuery
+{
+	const vector<ObjectPtr>& objects;
+	const DBL *point;
+	TraceThreadData *thread;
+	vector<ObjectPtr> found;
+
+	AccelPointQuery(const vector<ObjectPtr>& objs, const VECTOR p, TraceThreadData *t) : objects(objs), point(p), thread(t) { }
+
+	/// Tests an object as TracePixel::InitRayContainerState does. The box of each that passes holds the point.
+	void Test(ObjectPtr object)
+	{
+		if((object->interior != NULL) && Inside_BBox(point, object->BBox) && object->Inside(point, thread))
+			found.push_back(object);
+	}
+
+	void SearchLinearly()
+	{
+		for(vector<ObjectPtr>::const_iterator object = objects.begin(); object != objects.end(); object++)
+			Test(*object);
+	}
+};
+
+}
+
+#endif // POVRAY_BACKEND_POVACCELQUERY_H

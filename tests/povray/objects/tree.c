@@ -1,0 +1,271 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "tree.h"
+
+#include "shapes.h"
+
+int written_shapes[64];
+
+enum { UNION, MERGE, INTERSECTION, DIFFERENCE, OPERATIONS, PARTS = 4 };
+
+static const char *const operation_names[OPERATIONS] = {"union", "merge", "intersection",
+                                                        "difference"};
+
+/* ---- what is bounded ---- */
+
+static bool inside_is_bounded(const struct reach *r)
+{
+    return r->inside || r->clip_inside;
+}
+
+static bool outside_is_bounded(const struct reach *r)
+{
+    return r->outside && r->clip_outside;
+}
+
+static void swap_flags(bool *a, bool *b)
+{
+    const bool kept = *a;
+    *a = *b;
+    *b = kept;
+}
+
+static void invert_reach(struct reach *r)
+{
+    swap_flags(&r->surface, &r->inverted_surface);
+    swap_flags(&r->inside, &r->outside);
+    r->takes_apart = false;
+}
+
+/* A clip leaves what lies inside it. */
+static void clip_reach(struct reach *r, const struct reach *clip)
+{
+    const bool inside = inside_is_bounded(clip);
+
+    r->surface = r->surface || inside;
+    r->inverted_surface = r->inverted_surface || inside;
+    r->clip_inside = r->clip_inside || inside;
+    r->clip_outside = r->clip_outside && outside_is_bounded(clip);
+    r->clipped = true;
+    r->takes_apart = false;
+}
+
+static struct reach reach_of_shape(const struct shape *shape)
+{
+    const bool finite = (shape->traits & SHAPE_FINITE) != 0;
+
+    return (struct reach){.surface = finite,
+                          .inverted_surface = finite,
+                          .inside = (shape->traits & SHAPE_SOLID) != 0,
+                          .clip_outside = true};
+}
+
+/* Where each part's surface counts within all others, or outside all others; `inverted`: of the
+ * parts inverted. */
+static bool kept_surface(const struct reach *parts, int count, bool within, bool inverted)
+{
+    for (int i = 0; i < count; i++) {
+        bool bounded = inverted ? parts[i].inverted_surface : parts[i].surface;
+        for (int j = 0; j < count; j++) {
+            bounded = bounded || (j != i && (within ? inside_is_bounded(&parts[j])
+                                                    : outside_is_bounded(&parts[j])));
+        }
+        if (!bounded) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static struct reach reach_of_union(int operation, const struct reach *parts, int count)
+{
+    struct reach r = {.surface = true, .inside = true, .clip_outside = true};
+
+    for (int i = 0; i < count; i++) {
+        r.surface = r.surface && parts[i].surface;
+        r.inside = r.inside && inside_is_bounded(&parts[i]);
+        r.outside = r.outside || outside_is_bounded(&parts[i]);
+        r.unbounded_parts += unbounded_objects(&parts[i]);
+    }
+    if (operation == MERGE) {
+        r.surface = kept_surface(parts, count, false, false);
+    }
+    r.inverted_surface = kept_surface(parts, count, false, true);
+    r.takes_apart = operation == UNION;
+    return r;
+}
+
+/* An intersection; that of a difference has all parts but the first inverted already. */
+static struct reach reach_of_intersection(const struct reach *parts, int count)
+{
+    struct reach r = {.outside = true, .clip_outside = true};
+
+    for (int i = 0; i < count; i++) {
+        r.inside = r.inside || inside_is_bounded(&parts[i]);
+        r.outside = r.outside && outside_is_bounded(&parts[i]);
+    }
+    r.surface = kept_surface(parts, count, true, false);
+    r.inverted_surface = kept_surface(parts, count, true, true);
+    return r;
+}
+
+int unbounded_objects(const struct reach *reach)
+{
+    return reach->takes_apart ? reach->unbounded_parts : !reach->surface;
+}
+
+/* ---- modifiers ---- */
+
+static void write_transform(struct writer *w)
+{
+    static const char *const transforms[] = {
+        " translate @p / 2", " rotate @a", " scale 0.5 + @u", " scale <0.4 + @u, 0.4 + @u, 0.4 + @u>",
+        " scale <-1, 1, 0.6 + @u>",
+        " matrix <1, @s / 2, @s / 3, @s / 3, 1, @s / 2, 0, @s / 3, 1, @s / 4, 0, @s / 4>",
+        " transform { rotate @a translate @p / 3 inverse }"};
+
+    write_pattern(w, transforms[dice_below(&w->dice, sizeof transforms / sizeof transforms[0])]);
+}
+
+static void write_clip(struct writer *w, struct reach *reach, int depth)
+{
+    const bool link = dice_chance(&w->dice, 0.1) && !reach->clipped && reach->bounded;
+    const int count = dice_chance(&w->dice, 0.2) ? 2 : 1;
+
+    if (reach->linked) {
+        return;
+    }
+    if (link) {
+        /* The bound clips now; what it is was not kept. */
+        write_text(w, " clipped_by { bounded_by }");
+        reach->clipped = reach->linked = true;
+        reach->clip_outside = reach->takes_apart = false;
+        return;
+    }
+    write_text(w, " clipped_by { ");
+    for (int i = 0; i < count; i++) {
+        const struct reach clip = write_tree(w, depth, -1, true);
+        write_text(w, " } ");
+        clip_reach(reach, &clip);
+    }
+    if (dice_chance(&w->dice, 0.3)) {
+        write_transform(w);
+    }
+    write_text(w, " }");
+}
+
+/* Mostly bounds that hold the object, sometimes ones that do not. */
+static void write_bound(struct writer *w, struct reach *reach, int depth)
+{
+    const double kind = dice_unit(&w->dice);
+
+    if (reach->linked) {
+        return;
+    }
+    if (kind < 0.2 && reach->clipped && !reach->bounded) {
+        write_text(w, " bounded_by { clipped_by }");
+        reach->linked = true;
+    } else if (kind < 0.6) {
+        write_pattern(w, " bounded_by { sphere { @p / 4, 1.5 + @u } }");
+    } else {
+        write_text(w, " bounded_by { ");
+        write_tree(w, depth, -1, true);
+        write_text(w, " } }");
+    }
+    reach->bounded = true;
+}
+
+void write_modifiers(struct writer *w, struct reach *reach, int depth)
+{
+    const uint32_t count = dice_below(&w->dice, 5);
+
+    depth = w->budget > 0 ? depth : 0;
+    for (uint32_t i = 0; i < count; i++) {
+        const double kind = dice_unit(&w->dice);
+        if (kind < 0.15) {
+            write_text(w, " inverse");
+            invert_reach(reach);
+        } else if (kind < 0.3 && depth > 0) {
+            write_clip(w, reach, depth - 1);
+        } else if (kind < 0.4 && depth > 0) {
+            write_bound(w, reach, depth - 1);
+        } else {
+            write_transform(w);
+        }
+    }
+}
+
+/* ---- objects ---- */
+
+static int draw_shape(struct writer *w, bool plain)
+{
+    int which;
+
+    do {
+        which = (int)dice_below(&w->dice, (uint32_t)shape_count);
+    } while (plain && (shapes[which].traits & SHAPE_PATCH));
+    return which;
+}
+
+static struct reach write_shape(struct writer *w, int which)
+{
+    const struct shape *shape = &shapes[which];
+
+    if (shape->write != NULL) {
+        shape->write(w);
+    } else {
+        write_pattern(w, shape->pattern);
+    }
+    if (shape->traits & SHAPE_STURM) {
+        write_pattern(w, " [sturm]");
+    }
+    if ((shape->traits & SHAPE_HIERARCHY) && dice_chance(&w->dice, 0.2)) {
+        write_text(w, " hierarchy off");
+    }
+    w->budget--;
+    written_shapes[which] += w->out != NULL;
+    return reach_of_shape(shape);
+}
+
+static void write_own_texture(struct writer *w, bool plain)
+{
+    if (!plain && dice_chance(&w->dice, 0.1)) {
+        write_pattern(w, " pigment { rgb @c transmit 0.6 }");
+    }
+}
+
+static struct reach write_csg(struct writer *w, int depth, int wanted, bool plain)
+{
+    const int operation = (int)dice_below(&w->dice, OPERATIONS);
+    const int room = w->budget < PARTS ? w->budget : PARTS;
+    const int count = 1 + (int)dice_below(&w->dice, (uint32_t)room);
+    const int place = (int)dice_below(&w->dice, (uint32_t)count);
+    struct reach parts[PARTS];
+
+    write_text(w, "%s { ", operation_names[operation]);
+    for (int i = 0; i < count; i++) {
+        parts[i] = write_tree(w, depth - 1, i == place ? wanted : -1, plain);
+        write_own_texture(w, plain);
+        write_text(w, " } ");
+        if (operation == DIFFERENCE && i > 0) {
+            invert_reach(&parts[i]);
+        }
+    }
+    if (operation == UNION || operation == MERGE) {
+        return reach_of_union(operation, parts, count);
+    }
+    return reach_of_intersection(parts, count);
+}
+
+struct reach write_tree(struct writer *w, int depth, int wanted, bool plain)
+{
+    const bool csg = depth > 0 && w->budget > 1 && dice_chance(&w->dice, 0.5);
+    struct reach reach;
+
+    if (csg) {
+        reach = write_csg(w, depth, wanted, plain);
+    } else {
+        reach = write_shape(w, wanted >= 0 ? wanted : draw_shape(w, plain));
+    }
+    write_modifiers(w, &reach, depth);
+    return reach;
+}
