@@ -22,7 +22,7 @@ packages_build=(ca-certificates gcc g++ make cmake pkg-config libassimp-dev libo
     libpng-dev librandom123-dev)
 packages_stock=(povray povray-includes)
 packages_tests=(povray-examples libcmocka-dev libembree-dev gnuplot-nox
-    libxml2-utils clang)
+    libxml2-utils clang libclang-rt-dev locales)
 
 say() { printf '%s\n' "$*"; }
 
