@@ -25,6 +25,24 @@ struct span {
     double from, to;
 };
 
+/* The part of a span from `before` to `after` of `all`. */
+static struct span part_of(struct span s, size_t before, size_t after, size_t all)
+{
+    const double per = (s.to - s.from) / (double)all;
+    return (struct span){s.from + per * (double)before, s.from + per * (double)after};
+}
+
+/* Its halves: what is done first, then what follows from that. */
+static struct span first_half(struct span s)
+{
+    return part_of(s, 0, 1, 2);
+}
+
+static struct span second_half(struct span s)
+{
+    return part_of(s, 1, 2, 2);
+}
+
 /* A cell that becomes a grid. */
 struct job {
     struct grid_plan plan; /* of the grid */
@@ -238,11 +256,13 @@ static bool consider(struct builder *b, const struct grid *g, const accel_box *c
 }
 
 /* Takes the lists out of those cells of the grid just built that are better grids. */
-static bool take_crowded(struct builder *b, size_t number, double done)
+static bool take_crowded(struct builder *b, size_t number, struct span span)
 {
     struct grid_pool *pool = &b->h->pool;
     const struct grid g = pool->grids.at[number];
-    size_t slot, left = grid_slots(pool, &g, &slot), begin = pool->starts.at[slot], to = begin;
+    size_t slot;
+    const size_t cells = grid_slots(pool, &g, &slot);
+    size_t left = cells, begin = pool->starts.at[slot], to = begin;
     for (size_t brick = g.brick; left > 0; brick++) {
         for (uint64_t mask = pool->masks.at[brick]; mask; mask &= mask - 1, slot++, left--) {
             const uint32_t bit = (uint32_t)__builtin_ctzll(mask);
@@ -261,30 +281,12 @@ static bool take_crowded(struct builder *b, size_t number, double done)
             to += taken ? 0 : items.count;
             begin += items.count;
         }
-        if (!build_tick(b->build, done))
+        if (!build_tick(b->build, part_of(span, cells - left, cells, cells).from))
             return false;
     }
     pool->starts.at[slot] = (uint32_t)to;
     pool->refs.count = to;
     return true;
-}
-
-/* The part of a span from `before` to `after` of `all`. */
-static struct span part_of(struct span s, size_t before, size_t after, size_t all)
-{
-    const double per = (s.to - s.from) / (double)all;
-    return (struct span){s.from + per * (double)before, s.from + per * (double)after};
-}
-
-/* The halves of a span: to build a grid, then those that stand for its cells. */
-static struct span first_half(struct span s)
-{
-    return part_of(s, 0, 1, 2);
-}
-
-static struct span second_half(struct span s)
-{
-    return part_of(s, 1, 2, 2);
 }
 
 /* Builds the grids that stand for cells of the grid just built, and those inside them. */
@@ -293,16 +295,16 @@ static bool refine(struct builder *b, size_t number, uint32_t nesting, struct sp
     const size_t first = b->jobs.count, stacked = b->stack.count;
     if (nesting == HUG_MAX_CELL_NESTING)
         return true;
-    if (!take_crowded(b, number, span.from))
+    if (!take_crowded(b, number, first_half(span)))
         return false;
     const size_t last = b->jobs.count, all = b->stack.count - stacked;
     for (size_t i = first; i < last; i++) {
         struct job job = b->jobs.at[i];
         const size_t before = job.begin - stacked;
         const struct grid_items items = {b->stack.at + job.begin, job.count};
-        const struct span its = part_of(span, before, before + job.count, all);
-        const struct span half = first_half(its);
-        if (!grid_build(b->build, &b->h->pool, job.number, items, &job.plan, half.from, half.to) ||
+        const struct span its = part_of(second_half(span), before, before + job.count, all);
+        const struct span own = first_half(its);
+        if (!grid_build(b->build, &b->h->pool, job.number, items, &job.plan, own.from, own.to) ||
             !refine(b, job.number, nesting + 1, second_half(its)))
             return false;
     }
