@@ -43,6 +43,7 @@ struct primitives {
     struct ids unbounded;      /* objects with an infinite side, rising */
     accel_box bounds;          /* around the padded boxes of all that is bounded */
     bool only_triangles;       /* no spheres, no objects */
+    bool by_key;               /* no objects whose hits are ordered as reported */
     double test_cost;          /* mean cost of a test in units of visiting a node */
 };
 
