@@ -52,7 +52,7 @@ static inline accel_box boxtree_box(const struct boxtree_node *node, int i)
 struct boxtree_ray {
     pair org[3], inv[3];
     pair inv_far[3]; /* inv with slack */
-    pair tmin, cap;  /* cap: where a box may begin at most, with slack */
+    pair begin, cap; /* cap: where a box may begin at most, with slack */
     int near[3];     /* where in a node's planes the near ones of each axis stand: 0 or 2 */
 };
 
@@ -65,7 +65,7 @@ static inline struct boxtree_ray boxtree_ray_from(const struct query *q)
         r.inv_far[k] = pair_both(q->inv[k] * (1.0 + QUERY_SLACK));
         r.near[k] = q->sign >> k & 1 ? 2 : 0;
     }
-    r.tmin = pair_both(q->tmin);
+    r.begin = pair_both(q->begin);
     r.cap = pair_both(query_cap(q));
     return r;
 }
@@ -74,7 +74,7 @@ static inline struct boxtree_ray boxtree_ray_from(const struct query *q)
 static inline uint32_t boxtree_meets(const struct boxtree_ray *r, const struct boxtree_node *node,
                                      double begin[2])
 {
-    pair a = r->tmin, z = r->cap;
+    pair a = r->begin, z = r->cap;
     for (int k = 0; k < 3; k++) {
         const pair near = pair_load(node->plane[k] + r->near[k]);
         const pair far = pair_load(node->plane[k] + 2 - r->near[k]);

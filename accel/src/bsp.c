@@ -102,7 +102,7 @@ static void walk(const accel *a, struct query *q)
         return;
     if (query_common(q))
         walk_as(b, q,
-                (struct waiting){in.a > q->tmin ? in.a : q->tmin, in.z * (1.0 + QUERY_SLACK), 0},
+                (struct waiting){in.a > q->begin ? in.a : q->begin, in.z * (1.0 + QUERY_SLACK), 0},
                 true);
     else
         walk_as(b, q, (struct waiting){in.a, in.z, 0}, false);

@@ -196,7 +196,7 @@ static void cross_box(const struct query *q, const accel_box *box, bool common, 
 static inline bool meets_root(const struct query *q, const accel_box *box, bool common,
                               double *near, double *far)
 {
-    *near = common ? q->tmin : -(double)INFINITY;
+    *near = common ? q->begin : -(double)INFINITY;
     *far = common ? query_cap(q) : (double)INFINITY;
     cross_box(q, box, common, near, far);
     /* Raw ends without slack tell nothing before they are grown. */

@@ -317,6 +317,14 @@ static bool only_triangles(const struct primitives *p)
     return true;
 }
 
+static bool by_key(const struct primitives *p)
+{
+    for (uint32_t g = 0; g < p->geometry_count; g++)
+        if (p->geometry[g].order != ACCEL_ORDER_KEY)
+            return false;
+    return true;
+}
+
 static void describe(struct build *build)
 {
     const struct primitives *p = &build->a->prims;
@@ -351,6 +359,7 @@ bool primitives_copy(struct build *build, const accel_scene *scene)
     p->bounds = box_empty();
     p->test_cost = mean_cost(p);
     p->only_triangles = only_triangles(p);
+    p->by_key = by_key(p);
     if (total == 0)
         return true;
     if (!array_reserve(&build->a->memory, &p->bounded, total))

@@ -44,6 +44,7 @@ struct primitives {
     struct ids unbounded;      /* objects with an infinite side, rising */
     accel_box bounds;          /* around the padded boxes of all that is bounded */
     bool only_triangles;       /* no spheres, no objects */
+    bool by_key;               /* no objects whose hits are ordered as reported */
     bool left;                 /* the kind alone has the triangles: see primitives_leave */
     uint64_t box_seal;         /* over all boxes: see seal.h */
     uint64_t data_seal;        /* over the triangles and spheres that are bounded */

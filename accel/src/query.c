@@ -7,6 +7,8 @@
 #include "sphere.h"
 #include "triangle.h"
 
+#include <string.h>
+
 /* A probe as the library sees it. The public part, and so each copy of it, leads back here. */
 struct probing {
     accel_probe probe;
@@ -26,26 +28,49 @@ static bool after(double key, uint32_t id, const struct found *other)
     return key > other->key || (key == other->key && id > other->id);
 }
 
-/* Keeps a hit if it is among the first `room`. A hit that is there already is not kept again, so
- * a primitive may be tested any number of times. */
+/* The place in q->order of the first hit that is not before this one. */
+static uint32_t place_of(const struct query *q, const struct found *hit)
+{
+    uint32_t lo = 0, hi = q->count;
+    while (lo < hi) {
+        const uint32_t middle = (lo + hi) / 2;
+        if (after(hit->key, hit->id, &q->found[q->order[middle]]))
+            lo = middle + 1;
+        else
+            hi = middle;
+    }
+    return lo;
+}
+
+/* What is not before this hit cannot matter. */
+static void set_limit(struct query *q, const struct found *last)
+{
+    q->limit = last->key;
+    q->end = last->id;
+}
+
+/* Keeps a hit if it is among the first `room`, in place of the last if there are that many. A hit
+ * that is there already is not kept again, so a primitive may be tested any number of times. */
 static bool keep(struct query *q, const struct found *hit)
 {
     if (q->batch && !after(hit->key, hit->id, &q->last))
         return false;
-    uint32_t at = q->count;
-    while (at > 0 && before(hit->key, hit->id, &q->found[at - 1]))
-        at--;
-    if (at == q->room || (at > 0 && !after(hit->key, hit->id, &q->found[at - 1])))
+    if (q->pile && hit->key != q->last.key)
         return false;
-    if (q->count < q->room)
-        q->count++;
-    for (uint32_t i = q->count - 1; i > at; i--)
-        q->found[i] = q->found[i - 1];
-    q->found[at] = *hit;
+    const bool full = q->count == q->room;
+    if (full && !before(hit->key, hit->id, &q->found[q->order[q->count - 1]]))
+        return false;
+    const uint32_t at = place_of(q, hit);
+    if (at < q->count && !before(hit->key, hit->id, &q->found[q->order[at]]))
+        return false;
+    const uint16_t to = full ? q->order[q->count - 1] : (uint16_t)q->count++;
+    memmove(&q->order[at + 1], &q->order[at], (q->count - 1 - at) * sizeof *q->order);
+    q->order[at] = to;
+    q->found[to] = *hit;
     if (q->any)
         q->limit = -(double)INFINITY;
     else if (q->count == q->room)
-        q->limit = q->found[q->count - 1].key;
+        set_limit(q, &q->found[q->order[q->count - 1]]);
     return true;
 }
 
@@ -59,11 +84,18 @@ static bool inside(const struct query *q, double t)
     return q->tmin < t && t < q->tmax;
 }
 
+/* S of a primitive's box, in the caller's interval. */
+static struct interval own_interval(const struct query *q, const accel_box *padded)
+{
+    const struct interval raw = query_slabs(q, padded);
+    return query_cut(raw.a, raw.z, q->tmin, q->tmax);
+}
+
 /* A native hit: t is clamped into S(P'), and a hit whose S(P') is empty is none. */
 void query_offer(struct query *q, const accel_box *padded, uint32_t id, double t, double u,
                  double v)
 {
-    const struct interval s = query_box(q, padded);
+    const struct interval s = own_interval(q, padded);
     if (!(s.a <= s.z) || isnan(t))
         return;
     const double key = clamp(t, s);
@@ -73,7 +105,7 @@ void query_offer(struct query *q, const accel_box *padded, uint32_t id, double t
 
 void query_offer_point(struct query *q, const accel_box *padded, uint32_t id)
 {
-    const struct interval s = query_box(q, padded);
+    const struct interval s = own_interval(q, padded);
     if (s.a <= s.z)
         keep(q, &(struct found){0.0, 0.0, 0.0, 0.0, id});
 }
@@ -101,7 +133,7 @@ static void test_sphere(struct query *q, const struct geometry *g, uint32_t id)
 /* `prune` leaves out an object that begins after the limit. Linear, the judge, does without. */
 static void test_object(struct query *q, const struct geometry *g, uint32_t id, bool prune)
 {
-    const struct interval s = query_box(q, &q->prims->box[id]);
+    const struct interval s = own_interval(q, &q->prims->box[id]);
     if (!(s.a <= s.z) || (prune && s.a > q->limit))
         return;
     const double limit = g->order == ACCEL_ORDER_RAW && q->limit < q->tmax ? q->limit : q->tmax;
@@ -143,8 +175,28 @@ static void test(struct query *q, uint32_t id, bool prune)
     }
 }
 
+/* One triangle that a test of two has not ruled out. */
+static void test_survivor(struct query *q, uint32_t id, const double *vertices)
+{
+    double t, u, v;
+    if (id != q->skip && triangle_hit(q, vertices, &t, &u, &v))
+        offer(q, id, t, u, v);
+}
+
+/* Those that may be in a pile. */
+static void test_pile(struct query *q, const uint32_t *ids, size_t count, bool prune)
+{
+    for (size_t i = 0; i < count; i++)
+        if (query_may_matter(q, ids[i]))
+            test(q, ids[i], prune);
+}
+
 void query_test_all(struct query *q, const uint32_t *ids, size_t count)
 {
+    if (q->pile) {
+        test_pile(q, ids, count, false);
+        return;
+    }
     for (size_t i = 0; i < count && !query_done(q); i++)
         test(q, ids[i], false);
 }
@@ -156,14 +208,6 @@ static bool tested_lately(struct query *q, uint32_t id)
     const bool known = *box == id;
     *box = id;
     return known;
-}
-
-/* One triangle that a test of two has not ruled out. */
-static void test_survivor(struct query *q, uint32_t id, const double *vertices)
-{
-    double t, u, v;
-    if (id != q->skip && triangle_hit(q, vertices, &t, &u, &v))
-        offer(q, id, t, u, v);
 }
 
 static void test_two(struct query *q, const uint32_t id[2], const double *const vertices[2])
@@ -197,6 +241,10 @@ static void test_triangles(struct query *q, const uint32_t *ids, size_t count)
 
 void query_test_list(struct query *q, const uint32_t *ids, size_t count)
 {
+    if (q->pile) {
+        test_pile(q, ids, count, true);
+        return;
+    }
     if (q->prims->only_triangles && !q->point) {
         test_triangles(q, ids, count);
         return;
@@ -204,14 +252,4 @@ void query_test_list(struct query *q, const uint32_t *ids, size_t count)
     for (size_t i = 0; i < count && !query_done(q); i++)
         if (!tested_lately(q, ids[i]))
             test(q, ids[i], true);
-}
-
-void query_test_triangles(struct query *q, const uint32_t *ids, const double *vertices,
-                          size_t count)
-{
-    q->tests += count;
-    for (size_t i = 0; i + 1 < count && !query_done(q); i += 2)
-        test_two(q, ids + i, (const double *[]){vertices + 9 * i, vertices + 9 * (i + 1)});
-    if (count % 2 == 1 && !query_done(q))
-        test_survivor(q, ids[count - 1], vertices + 9 * (count - 1));
 }

@@ -19,6 +19,12 @@
  * the key on that axis, and the product of those cells lists the primitive: a walk must visit
  * every cell whose S is not empty and does not begin after q->limit.
  *
+ * An all query walks once for each batch of hits. A later walk need not look at what lies before
+ * the last key of the batch before, and cuts S of nodes to q->begin: a key of its own is not less,
+ * so it is still in S. Keys themselves are clamped to S as the caller's interval cuts it. Where
+ * many hits share the last key, walks gather a pile: hits of that key alone, by id, so of most
+ * primitives the id tells that they are not among the next ones.
+ *
  * A point query is the ray of zero direction: its S is not empty exactly for the boxes that hold
  * the point, and its hits are ordered by id alone.
  */
@@ -32,8 +38,9 @@
 
 #define QUERY_GROWTH 0x1p-50
 
-/* How many hits an all or point query gathers in one walk. */
-enum { QUERY_BATCH = 32 };
+/* How many hits an all or point query gathers in its first walk, and in a later one at most: they
+ * are on the stack, with the callbacks above them. */
+enum { QUERY_BATCH = 32, QUERY_LATER = 512 };
 
 /* A small direct-mapped memory of tested ids: saves tests, never needed for the answer. */
 enum { QUERY_MAILBOXES = 32 };
@@ -50,6 +57,7 @@ struct query {
     double org[3], dir[3]; /* the ray */
     double inv[3];         /* 1 / dir, 0 where dir is 0: see query_inverse */
     double tmin, tmax;     /* the caller's, exclusive */
+    double begin;          /* no key below matters: tmin, or that of `last` */
     uint32_t parallel;     /* bit k: dir[k] is 0 */
     uint32_t sign;         /* bit k: dir[k] is negative (and not 0) */
     uint8_t near[3];       /* index of the near plane of axis k in a box's six doubles */
@@ -59,10 +67,13 @@ struct query {
     double shear[3];       /* dir[kx] / dir[kz], dir[ky] / dir[kz], 1 / dir[kz] */
     uint32_t skip;         /* id that the ray leaves, or ACCEL_NONE */
     double limit;          /* a hit with a greater key cannot matter */
-    struct found *found;   /* the first hits so far, by (key, id) */
+    struct found *found;   /* the first hits so far */
+    uint16_t *order;       /* their places, by (key, id) */
     uint32_t count, room;  /* of them; there is room for */
     bool any;              /* the first hit ends the query */
     struct found last;     /* of the batch before: the order goes on after it */
+    bool pile;             /* only hits with the key of `last` are gathered */
+    uint32_t end;          /* of a pile: ids from here on cannot matter */
     accel_query *caller;   /* the caller's, or NULL */
     const accel_ray *ray;  /* the caller's ray as the callbacks see it */
     uint64_t nodes, tests; /* visited and tested so far */
@@ -96,11 +107,17 @@ static inline double query_grow_far(double t)
     return in > out ? in : out;
 }
 
-/* S of the part of the ray from raw t `near` to raw t `far`, cut to the caller's interval. */
-static inline struct interval query_interval(const struct query *q, double near, double far)
+/* S of the part of the ray from raw t `near` to raw t `far`, cut to an interval. */
+static inline struct interval query_cut(double near, double far, double from, double to)
 {
     const double a = query_grow_near(near), z = query_grow_far(far);
-    return (struct interval){a > q->tmin ? a : q->tmin, z < q->tmax ? z : q->tmax};
+    return (struct interval){a > from ? a : from, z < to ? z : to};
+}
+
+/* The same of a node, whose S is of use where a key in it may matter. */
+static inline struct interval query_interval(const struct query *q, double near, double far)
+{
+    return query_cut(near, far, q->begin, q->tmax);
 }
 
 /* The part of the ray's line inside a box: raw values of t. The comparisons are written so that a
@@ -124,7 +141,7 @@ static inline struct interval query_slabs(const struct query *q, const accel_box
     return raw;
 }
 
-/* S of a box. */
+/* S of a node's box. */
 static inline struct interval query_box(const struct query *q, const accel_box *box)
 {
     const struct interval raw = query_slabs(q, box);
@@ -139,16 +156,15 @@ static inline bool query_meets(const struct query *q, struct interval s)
 
 /* Walks may test against a little more than S where that is cheaper; what is met in vain costs only
  * time. For common rays, which are parallel to no axis, start at tmin >= 0 and round to nearest,
- * let begin be the greatest of tmin and the raw near crossings, and end the least raw far crossing,
- * scaled up by 1 + QUERY_SLACK. Where S = [a, z] meets the query and may hold a hit, begin <= end
- * and begin <= query_cap.
- * Proof: z > tmin >= 0, as the ray's interval is open, so no far crossing is negative, and the
- * slack takes each up by at least QUERY_SLACK - 4u relatively, u = 2^-53, whether it is multiplied
- * to t or to 1 / dir: more than QUERY_GROWTH and what growth was rounded by; hence end >= z. If
- * begin is tmin or not positive, begin <= a. Otherwise begin exceeds a by less than half the slack,
- * relatively, which the slack makes up for in end and in the cap. Where a product is subnormal,
- * rounding to nearest undoes the growth, and is monotone; a directed rounding would make the growth
- * a whole step, hence S itself there. */
+ * let begin be the greatest of q->begin and the raw near crossings, and end the least raw far
+ * crossing, scaled up by 1 + QUERY_SLACK. Where S = [a, z] meets the query and may hold a hit,
+ * begin <= end and begin <= query_cap. Proof: z > tmin >= 0, as the interval of keys is open, so no
+ * far crossing is negative, and the slack takes each up by at least QUERY_SLACK - 4u relatively, u
+ * = 2^-53, whether it is multiplied to t or to 1 / dir: more than QUERY_GROWTH and what growth was
+ * rounded by; hence end >= z. If begin is q->begin or not positive, begin <= a. Otherwise begin
+ * exceeds a by less than half the slack, relatively, which the slack makes up for in end and in the
+ * cap. Where a product is subnormal, rounding to nearest undoes the growth, and is monotone; a
+ * directed rounding would make the growth a whole step, hence S itself there. */
 #define QUERY_SLACK (8 * QUERY_GROWTH)
 
 static inline bool query_common(const struct query *q)
@@ -165,6 +181,12 @@ static inline double query_cap(const struct query *q)
 /* What the tests of primitives need to know of a ray, for a query that keeps its hits itself. */
 void query_prepare(struct query *q, const accel *a, const accel_ray *ray);
 
+/* Does the id alone say that a primitive is not among the next of a pile? */
+static inline bool query_may_matter(const struct query *q, uint32_t id)
+{
+    return !q->pile || (id > q->last.id && id < q->end);
+}
+
 /* Is the query answered, whatever else may come? */
 static inline bool query_done(const struct query *q)
 {
@@ -174,11 +196,6 @@ static inline bool query_done(const struct query *q)
 /* Tests a leaf's primitives and keeps those hits that are among the first. Leaves out what was
  * tested lately, and objects whose box begins after the limit. */
 void query_test_list(struct query *q, const uint32_t *ids, size_t count);
-
-/* Tests triangles whose vertices the kind keeps in the order of its leaves, 9 doubles each. Not for
- * point queries, nor for references that a walk meets twice. */
-void query_test_triangles(struct query *q, const uint32_t *ids, const double *vertices,
-                          size_t count);
 
 /* For kinds that keep the data of primitives themselves: a hit of a triangle or sphere, and a box
  * that a point query may be in. padded: P'. */

@@ -48,18 +48,15 @@ static void prepare_shear(struct query *q)
     q->shear[2] = 1.0 / q->dir[kz];
 }
 
-static void prepare(struct query *q, const accel *a, const accel_ray *ray, struct found *found,
-                    uint32_t room, accel_query *caller)
+static void prepare(struct query *q, const accel *a, const accel_ray *ray, accel_query *caller)
 {
     memset(q, 0, sizeof *q);
     q->prims = &a->prims;
     memcpy(q->org, ray->org, sizeof q->org);
     memcpy(q->dir, ray->dir, sizeof q->dir);
-    q->tmin = ray->tmin;
+    q->tmin = q->begin = ray->tmin;
     q->tmax = ray->tmax;
     q->skip = primitives_id(&a->prims, ray->skip);
-    q->found = found;
-    q->room = room;
     q->caller = caller;
     q->ray = ray;
     prepare_slabs(q);
@@ -67,8 +64,15 @@ static void prepare(struct query *q, const accel *a, const accel_ray *ray, struc
 
 void query_prepare(struct query *q, const accel *a, const accel_ray *ray)
 {
-    prepare(q, a, ray, NULL, 0, NULL);
+    prepare(q, a, ray, NULL);
     prepare_shear(q);
+}
+
+static void give_room(struct query *q, struct found *found, uint16_t *order, uint32_t room)
+{
+    q->found = found;
+    q->order = order;
+    q->room = room;
 }
 
 /* One walk: the first hits after q->last. Things without bounds come first: they may set the
@@ -76,7 +80,8 @@ void query_prepare(struct query *q, const accel *a, const accel_ray *ray)
 static void walk(struct query *q, const accel *a)
 {
     q->count = 0;
-    q->limit = q->point ? 0.0 : (double)INFINITY;
+    q->limit = q->pile ? q->last.key : q->point ? 0.0 : (double)INFINITY;
+    q->end = ACCEL_NONE;
     memset(q->mailbox, 0xff, sizeof q->mailbox);
     query_test_all(q, a->prims.unbounded.at, a->prims.unbounded.count);
     if (a->prims.bounded.count > 0 && !query_done(q))
@@ -109,8 +114,10 @@ static accel_hit hit_from(const struct primitives *p, const struct found *f)
 static bool find_first(struct query *q, const accel *a, const accel_ray *ray, bool any,
                        struct found *found, accel_query *caller)
 {
-    prepare(q, a, ray, found, 1, caller);
+    uint16_t order;
+    prepare(q, a, ray, caller);
     prepare_shear(q);
+    give_room(q, found, &order, 1);
     q->any = any;
     walk(q, a);
     account(q);
@@ -149,23 +156,59 @@ bool accel_any(const accel *a, const accel_ray *ray, accel_query *query)
     return find_first(&q, a, ray, true, &found, query);
 }
 
-/* Batch after batch until one is not full. False if the visitor said stop. */
-static bool visit_all(struct query *q, const accel *a,
-                      bool (*visit)(void *visitor, const struct primitives *, const struct found *),
-                      void *visitor)
+/* Receives what an all query found. */
+typedef bool visit_found(void *visitor, const struct primitives *p, const struct found *f);
+
+/* What the next walk is to gather: all after the last hit; if half of these have its key, first a
+ * pile of that; if such a pile came to its end, what has a greater key. */
+static void go_on(struct query *q)
 {
-    bool more = true, go_on = true;
-    while (more && go_on) {
-        walk(q, a);
-        more = q->count == q->room;
-        for (uint32_t i = 0; i < q->count && go_on; i++)
-            go_on = visit(visitor, q->prims, &q->found[i]);
-        if (q->count > 0)
-            q->last = q->found[q->count - 1];
-        q->batch = true;
-    }
+    if (q->count == q->room)
+        q->last = q->found[q->order[q->count - 1]];
+    else
+        q->last.id = ACCEL_NONE;
+    q->pile = q->count == q->room && q->found[q->order[q->count / 2]].key == q->last.key;
+    q->batch = true;
+    if (q->prims->by_key && !q->point)
+        q->begin = q->last.key;
+}
+
+/* One batch. True if there may be another. */
+static bool visit_batch(struct query *q, const accel *a, visit_found *visit, void *visitor,
+                        bool *stopped)
+{
+    walk(q, a);
+    for (uint32_t i = 0; i < q->count && !*stopped; i++)
+        *stopped = !visit(visitor, q->prims, &q->found[q->order[i]]);
+    if (*stopped || (q->count < q->room && !q->pile))
+        return false;
+    go_on(q);
+    return true;
+}
+
+/* The batches after the first: larger, as each is a walk that may test all of a pile again. Apart,
+ * so that the stack holds this room where it is needed only. */
+__attribute__((noinline)) static void visit_later(struct query *q, const accel *a,
+                                                  visit_found *visit, void *visitor, bool *stopped)
+{
+    struct found found[QUERY_LATER];
+    uint16_t order[QUERY_LATER];
+    give_room(q, found, order, QUERY_LATER / 4);
+    while (visit_batch(q, a, visit, visitor, stopped))
+        q->room = QUERY_LATER;
+}
+
+/* False if the visitor said stop. */
+static bool visit_all(struct query *q, const accel *a, visit_found *visit, void *visitor)
+{
+    struct found found[QUERY_BATCH];
+    uint16_t order[QUERY_BATCH];
+    bool stopped = false;
+    give_room(q, found, order, QUERY_BATCH);
+    if (visit_batch(q, a, visit, visitor, &stopped))
+        visit_later(q, a, visit, visitor, &stopped);
     account(q);
-    return go_on;
+    return !stopped;
 }
 
 struct hit_visitor {
@@ -188,8 +231,7 @@ bool accel_all(const accel *a, const accel_ray *ray, accel_visit_hit *visit, voi
         return true;
     }
     struct query q;
-    struct found found[QUERY_BATCH];
-    prepare(&q, a, ray, found, QUERY_BATCH, query);
+    prepare(&q, a, ray, query);
     prepare_shear(&q);
     return visit_all(&q, a, visit_hit, &(struct hit_visitor){visit, user});
 }
@@ -220,8 +262,7 @@ bool accel_point(const accel *a, const double *point, accel_visit_id *visit, voi
     }
     const accel_ray ray = accel_ray_from(point, nowhere);
     struct query q;
-    struct found found[QUERY_BATCH];
-    prepare(&q, a, &ray, found, QUERY_BATCH, query);
+    prepare(&q, a, &ray, query);
     q.point = true;
     return visit_all(&q, a, visit_id, &(struct id_visitor){visit, user});
 }

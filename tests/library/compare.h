@@ -20,7 +20,7 @@ struct answer {
     const char *illegal; /* NULL, or what no structure may answer to this ray */
 };
 
-/* accel_all costs a walk for every 32 hits, so a pile of a million is not visited to its end. */
+/* Most hits that are looked at: a pile of a million is not visited to its end. */
 enum { ALL_HITS = 300 };
 
 /* Asks for the nearest hit and for any; with `deep` also for all and for the origin's boxes. */

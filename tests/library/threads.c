@@ -254,7 +254,8 @@ static const size_t small_stack = 128 << 10;
 static const size_t small_stack = 128 << 10;
 #endif
 
-/* Deep structures, built and walked on 128 KiB. */
+/* Deep structures, built and walked on 128 KiB; or walked alone, and built by what walks, on half.
+ */
 static void test_small_stack(void **state)
 {
     (void)state;
@@ -270,6 +271,10 @@ static void test_small_stack(void **state)
             struct worker w = {&s, NULL, list[j].config, 0, ACCEL_OK};
             run(&w, 1, small_stack);
             check(&w, 1, expected);
+            w.a = must_build(&s, list[j].config);
+            run(&w, 1, small_stack / 2);
+            check(&w, 1, expected);
+            accel_free((accel *)w.a);
         }
         scene_free(&s);
     }

@@ -413,8 +413,14 @@ ACCEL_API bool accel_any(const accel *a, const accel_ray *ray, accel_query *quer
 typedef bool accel_visit_hit(void *user, const accel_hit *hit);
 
 /* Visits every hit in order of (t, geometry, primitive), each exactly once (two hits of one
- * primitive at one t are one). Needs no memory for them: they are gathered in fixed batches, one
- * walk for each. Returns false if the visitor ended the query. */
+ * primitive at one t are one). Returns false if the visitor ended the query.
+ *
+ * Allocates nothing: hits are gathered on the stack, the first 32 in one walk, then up to 512 in
+ * each, which takes 22 KB of stack. So n hits that lie apart cost a few tests each, and n at one t
+ * do (30,000 copies of a triangle: 6 ms). But where n primitives are hit at as many t and every
+ * part of the ray is in the boxes of most, as in spheres within spheres, each walk tests most of
+ * them again, n^2 / 512 tests: 30,000 such hits take 50 ms, 300,000 some seconds. A host that needs
+ * the first ones only ends the query, or gives a tmax. */
 ACCEL_API bool accel_all(const accel *a, const accel_ray *ray, accel_visit_hit *visit, void *user,
                          accel_query *query);
 

@@ -229,7 +229,7 @@ static bool walk(const struct wide *w, struct query *q)
     waiting stack[WIDE_MAX_DEPTH * (WIDE - 1) + 2], *top = stack;
     _Alignas(64) float begin[WIDE];
     struct wide_ray ray;
-    if (q->point || !wide_ray_from(&ray, w, q->org, q->dir, q->tmin))
+    if (q->point || !wide_ray_from(&ray, w, q->org, q->dir, q->begin))
         return false;
     float limit = query_end(&ray, q);
     struct node_ray n = node_ray_from(&ray, limit);

@@ -103,7 +103,7 @@ static void test_triangle(struct query *q, const struct wide_block *b,
 {
     const uint32_t id = wide_block_ids(b)[i];
     double vertices[9], t, u, v;
-    if (id == q->skip)
+    if (id == q->skip || !query_may_matter(q, id))
         return;
     q->tests++;
     wide_vertices(b, i, vertices);
