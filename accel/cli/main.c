@@ -30,8 +30,12 @@ static int print_overview(void)
         printf("  %-8s %s\n", commands[i]->name, commands[i]->summary);
     }
     printf(
-        "\n'accel COMMAND --help' explains each. SCENE is a mesh file (PLY, OBJ, STL, OFF, glTF\n"
-        "and what else assimp reads) or a built-in scene, which 'accel kinds' lists.\n"
+        "\n'accel COMMAND --help' explains each. SCENE is a mesh file or a built-in scene, which\n"
+        "'accel kinds' lists. OBJ, PLY, STL, OFF and glTF 2.0 (.gltf, .glb) are read strictly: "
+        "what\n"
+        "is wrong in them is refused with its line. Other formats (3MF, AMF, DAE, X3D, ...) are "
+        "left\n"
+        "to assimp, unchecked. 'accel info --help' says what of each is read and what is not.\n"
         "Exit codes: 0 fine, 1 a difference was found, 2 bad usage or input.\n");
     return ACCEL_EXIT_FINE;
 }

@@ -24,9 +24,8 @@ accel_arguments accel_arguments_start(const accel_command *command, int argc, ch
 }
 
 /* Prints one line, whatever is in a file's name. */
-__attribute__((format(printf, 3, 0))) static void say(const accel_command *command,
-                                                      const char *what, const char *format,
-                                                      va_list list)
+__attribute__((format(printf, 3, 0))) static void
+say(const accel_command *command, const char *what, const char *format, va_list list)
 {
     char text[1000];
     vsnprintf(text, sizeof text, format, list);

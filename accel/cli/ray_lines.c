@@ -15,8 +15,7 @@ static const char separators[] = " \t\v\f,;";
 accel_ray_lines accel_ray_lines_start(const accel_file *file)
 {
     const bool marked = file->size >= 3 && memcmp(file->bytes, "\xEF\xBB\xBF", 3) == 0;
-    return (accel_ray_lines){.at = file->bytes + (marked ? 3 : 0),
-                             .end = file->bytes + file->size};
+    return (accel_ray_lines){.at = file->bytes + (marked ? 3 : 0), .end = file->bytes + file->size};
 }
 
 /* Cuts off the next line and its comment. False: a zero byte is in it, behind which more may be. */
@@ -56,8 +55,8 @@ static bool in_one_group(int word)
     return word != 0 && word != 3 && word != 6 && word != 8;
 }
 
-/* Is the same between all numbers of a group, nothing but blanks before the first number, and at most
- * one separator behind the last one? */
+/* Is the same between all numbers of a group, nothing but blanks before the first number, and at
+ * most one separator behind the last one? */
 static bool are_alike(const char *line)
 {
     char inner = 0;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The lines of a file of rays. Lines may be empty, and what follows '#' is a comment. The first line
- * that is neither may name the columns, without any number. Lines end with LF, CR LF or CR; a
+ * The lines of a file of rays. Lines may be empty, and what follows '#' is a comment. The first
+ * line that is neither may name the columns, without any number. Lines end with LF, CR LF or CR; a
  * byte-order mark may come before them.
  *
  * Between the numbers are blanks, or a comma or a semicolon with or without blanks. Within an
@@ -25,7 +25,11 @@ typedef struct accel_ray_lines {
 accel_ray_lines accel_ray_lines_start(const accel_file *file);
 
 /* What accel_next_ray found. */
-typedef enum accel_ray_line { ACCEL_RAY_LINES_END, ACCEL_RAY_LINE, ACCEL_NO_RAY_LINE } accel_ray_line;
+typedef enum accel_ray_line {
+    ACCEL_RAY_LINES_END,
+    ACCEL_RAY_LINE,
+    ACCEL_NO_RAY_LINE
+} accel_ray_line;
 
 /* Takes lines up to the next ray, or to one that is no ray. */
 accel_ray_line accel_next_ray(accel_ray_lines *lines, accel_ray *ray);

@@ -10,7 +10,8 @@
  * and of formats with nodes a mesh that a node refers to, nodes depth first. Triangles and vertices
  * keep the file's order; polygons are cut into triangles in place; points and lines are left out and
  * counted. Coordinates of text are the nearest doubles, those of binary files keep their value;
- * assimp reads them as float. The matrices of nodes are applied in double.
+ * assimp reads them as float. The matrices of nodes are applied in double. A file needs no more
+ * memory than is free; of what a glTF shows many times that is told before.
  */
 #ifndef ACCEL_CLI_SCENE_H
 #define ACCEL_CLI_SCENE_H

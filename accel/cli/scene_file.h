@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Between the parts of the loader of files that assimp reads: the importer in the child, and what it
- * sends.
+ * Between the parts of the loader of files that assimp reads: the importer in the child, and what
+ * it sends.
  */
 #ifndef ACCEL_CLI_SCENE_FILE_H
 #define ACCEL_CLI_SCENE_FILE_H

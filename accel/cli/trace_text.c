@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Hits of the rays of a text file, one line for each ray: "geom prim t u v" or "miss". Numbers have 17
- * digits, which name a double exactly.
+ * Hits of the rays of a text file, one line for each ray: "geom prim t u v" or "miss". Numbers have
+ * 17 digits, which name a double exactly.
  */
 #include "trace.h"
 

@@ -143,6 +143,9 @@ indices=${indices/5123/5126} no float_indices.gltf 'accessors[1] needs bytes'
 indices=${indices/5123/5122} no signed_indices.gltf 'accessors[1] is used for indices'
 bytes=$corners'\x00\x02\x01\x00\x01\x03\x01\x02\x03\x00\x03\x02'$(little 0 0 0) indices=${indices/5123/5121} ok byte_indices.gltf 4 "$unit"
 bytes=$corners$(little i0 i2 i1 i0 i1 i3) indices='{"bufferView":1,"componentType":5125,"count":6,"type":"SCALAR"}' ok long_indices.gltf 2 "$unit"
+bytes=$corners$(short 3 1 0 0 0 0 0 0 0 0 0 0) indices=${indices/\"count\":12/\"count\":3} ok few_used.gltf 1 '0 0 0, 1 0 1'
+expect 0 export few_used.gltf -o few_used.inc --as triangles
+grep -qxF '{<0,0,1>,<1,0,0>,<0,0,0>}' few_used.inc || fail "the corners of few_used.gltf: $(tail -n 2 few_used.inc)"
 
 # Nodes.
 nodes='[{"mesh":0,"translation":[10,0,0],"scale":[2,2,2]}]' ok moved.gltf 4 '10 0 0, 12 2 2'

@@ -141,11 +141,32 @@ static void test_numbers(void **state)
 static void test_words(void **state)
 {
     (void)state;
-    static const char *const right[] = {"0",     "-0",   "+1",    "1.",    ".5",   "-.5e1",
-                                        "1e3",   "1E+3", "1.e-3", "00012", "1e0009", "123456789012345678901"};
-    static const char *const wrong[] = {"",     ".",   "-",    "+.",  "e5",   "1e",   "1e+",  "--1",
-                                        "1.2.3", "nan", "inf", "0x1", "1,5",  "1e999", "1d3", "1f",
-                                        "1e5.0", "NaN(1)", "-1e400", "0x", "1_000", "\xc2\xa0""1"};
+    static const char *const right[] = {"0",     "-0",    "+1",     "1.",
+                                        ".5",    "-.5e1", "1e3",    "1E+3",
+                                        "1.e-3", "00012", "1e0009", "123456789012345678901"};
+    static const char *const wrong[] = {"",
+                                        ".",
+                                        "-",
+                                        "+.",
+                                        "e5",
+                                        "1e",
+                                        "1e+",
+                                        "--1",
+                                        "1.2.3",
+                                        "nan",
+                                        "inf",
+                                        "0x1",
+                                        "1,5",
+                                        "1e999",
+                                        "1d3",
+                                        "1f",
+                                        "1e5.0",
+                                        "NaN(1)",
+                                        "-1e400",
+                                        "0x",
+                                        "1_000",
+                                        "\xc2\xa0"
+                                        "1"};
     for (size_t i = 0; i < sizeof right / sizeof right[0]; i++) {
         check_word(right[i], true);
     }
@@ -188,6 +209,37 @@ static void test_locale(void **state)
     }
     test_numbers(NULL);
     setlocale(LC_ALL, "C");
+}
+
+/* A few bytes may ask for any number of zeros, and of copies. */
+static void test_memory(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text, *words;
+    } files[] = {
+        {"{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}],"
+         "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"mode\":5}]}],"
+         "\"accessors\":[{\"componentType\":5126,\"count\":4000000000,\"type\":\"VEC3\"}]}",
+         "accessors[0] has 4000000000 elements, which do not fit into memory"},
+        {"{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0,1]}],\"nodes\":[{\"mesh\":0},"
+         "{\"mesh\":0}],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],"
+         "\"accessors\":[{\"componentType\":5126,\"count\":30000,\"type\":\"VEC3\"}]}",
+         "shows 2 meshes of 20000 triangles together, which take 1 MB of memory, but 1 MB are "
+         "free"}};
+    for (int i = 0; i < 2; i++) {
+        accel_loaded loaded = {0};
+        accel_error error;
+        const accel_mesh_source source = {.name = "a.gltf",
+                                          .bytes = files[i].text,
+                                          .size = strlen(files[i].text),
+                                          .memory = 1 << 20};
+        assert_false(accel_mesh_read(&loaded, &source, &error));
+        if (strstr(error.text, files[i].words) == NULL) {
+            fail_msg("%s", error.text);
+        }
+        accel_unload_scene(&loaded);
+    }
 }
 
 /* --------------------------------------------------------------- polygons ---- */
@@ -307,8 +359,8 @@ static void shuffle(polygon *p)
     }
 }
 
-/* Puts it into a plane in space, far away and large or small. Plain ones keep their numbers, so that
- * corners on a line stay there. */
+/* Puts it into a plane in space, far away and large or small. Plain ones keep their numbers, so
+ * that corners on a line stay there. */
 static void put_in_space(const polygon *p, bool plain, double (*vertices)[3])
 {
     const double size = plain ? 1 : pow(10, real(-3, 4)), far = plain ? 0 : size * real(0, 100);
@@ -329,8 +381,7 @@ static double add_area(const double *a, const double *b, const double *c, double
     double square = 0;
     for (int k = 0; k < 3; k++) {
         const int y = (k + 1) % 3, z = (k + 2) % 3;
-        const double part =
-            (b[y] - a[y]) * (c[z] - a[z]) - (b[z] - a[z]) * (c[y] - a[y]);
+        const double part = (b[y] - a[y]) * (c[z] - a[z]) - (b[z] - a[z]) * (c[y] - a[y]);
         sum[k] += part;
         square += part * part;
     }
@@ -354,9 +405,9 @@ static void check_edges(uint32_t count, const uint32_t *triangles)
     }
 }
 
-/* With the edges right, the areas of all triangles add up to that of the polygon; they do so without
- * their signs just where none of them is turned over, so that none covers another. A product of
- * coordinates is wrong by some units in its last place. */
+/* With the edges right, the areas of all triangles add up to that of the polygon; they do so
+ * without their signs just where none of them is turned over, so that none covers another. A
+ * product of coordinates is wrong by some units in its last place. */
 static void check_polygon(mesh_cutter *cutter, const polygon *p, bool plain)
 {
     double vertices[MOST_CORNERS][3], sum[3] = {0, 0, 0}, largest = 0, total = 0;
@@ -434,8 +485,8 @@ int main(void)
     numbers = accel_random_start(1, 0, 0);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_numbers),  cmocka_unit_test(test_words),
-        cmocka_unit_test(test_locale),   cmocka_unit_test(test_polygons),
-        cmocka_unit_test(test_odd_polygons),
+        cmocka_unit_test(test_locale),   cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_polygons), cmocka_unit_test(test_odd_polygons),
     };
     return cmocka_run_group_tests_name("mesh_parts", tests, NULL, NULL);
 }

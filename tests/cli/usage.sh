@@ -13,6 +13,10 @@ for command in kinds info check trace diff export; do
     says "--quiet"
     complains "nearest is --quiet" "$command" --quite
 done
+expect 0 --help
+says "OBJ, PLY, STL, OFF and glTF 2.0 (.gltf, .glb) are read strictly"
+expect 0 info --help
+says "Other formats are read by assimp, unchecked"
 expect 0 --version
 complains "usage: accel COMMAND"
 complains "nearest is check" chekc

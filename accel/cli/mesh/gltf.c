@@ -27,16 +27,18 @@ static bool open_glb(gltf *g, span *json)
     const uint32_t version = source->size < 20 ? 0 : mesh_bytes32(begin + 4, false);
     const uint64_t size = source->size < 20 ? 0 : mesh_bytes32(begin + 8, false);
     if (version != 2 || size > source->size) {
-        return mesh_refuse(g->r, "is a GLB of version %lu and %llu bytes, of which %zu are there; "
-                                 "allowed is version 2",
+        return mesh_refuse(g->r,
+                           "is a GLB of version %lu and %llu bytes, of which %zu are there; "
+                           "allowed is version 2",
                            (unsigned long)version, (unsigned long long)size, source->size);
     }
     for (uint64_t at = 12, chunk = 0; at + 8 <= size; chunk++) {
         const uint64_t length = mesh_bytes32(begin + at, false);
         const uint32_t type = mesh_bytes32(begin + at + 4, false);
         if (length > size - at - 8 || (chunk == 0) != (type == CHUNK_JSON)) {
-            return mesh_refuse_byte(g->r, begin + at, "a chunk of %llu bytes and type %08lx, "
-                                                      "allowed is first JSON, and what is there",
+            return mesh_refuse_byte(g->r, begin + at,
+                                    "a chunk of %llu bytes and type %08lx, "
+                                    "allowed is first JSON, and what is there",
                                     (unsigned long long)length, (unsigned long)type);
         }
         if (chunk == 0) {
@@ -71,9 +73,9 @@ static bool parse(gltf *g, span json)
 static bool is_harmless(const char *extension)
 {
     static const char *const beginnings[] = {
-        "KHR_materials_",  "KHR_texture_",       "EXT_texture_",  "MSFT_texture_",
-        "KHR_lights_",     "EXT_lights_",        "KHR_xmp",       "KHR_animation_",
-        "KHR_audio",       "KHR_mesh_quantization"};
+        "KHR_materials_", "KHR_texture_",         "EXT_texture_", "MSFT_texture_",
+        "KHR_lights_",    "EXT_lights_",          "KHR_xmp",      "KHR_animation_",
+        "KHR_audio",      "KHR_mesh_quantization"};
     for (size_t i = 0; i < sizeof beginnings / sizeof beginnings[0]; i++) {
         if (strncmp(extension, beginnings[i], strlen(beginnings[i])) == 0) {
             return true;
@@ -123,28 +125,51 @@ static bool check_version(gltf *g)
 /* Counts what all placed meshes take, before any of it is made. */
 static bool check_memory(gltf *g)
 {
-    uint64_t triangles = 0;
+    uint64_t triangles = 0, bytes = 0;
     for (size_t i = 0; i < g->placed_count; i++) {
         const gltf_mesh *mesh = gltf_read_mesh(g, g->placed[i].mesh);
         if (mesh == NULL) {
             return false;
         }
-        for (size_t k = 0; k < mesh->count; k++) {
-            const gltf_primitive *p = &mesh->primitives[k];
-            g->r->out->left_out += p->left_out;
-            if (p->triangle_count != 0) {
-                triangles += p->triangle_count;
-                g->bytes += 24 * (uint64_t)p->vertex_count + 12 * (uint64_t)p->triangle_count;
-            }
-        }
+        g->r->out->left_out += mesh->left_out;
+        triangles += mesh->triangles;
+        bytes += mesh->bytes;
     }
-    return g->bytes <= g->r->source->memory ||
+    return bytes <= g->r->source->memory ||
            mesh_refuse(g->r,
                        "shows %zu meshes of %llu triangles together, which take %llu MB of memory, "
                        "but %llu MB are free: free some",
                        g->placed_count, (unsigned long long)triangles,
-                       (unsigned long long)(g->bytes >> 20),
+                       (unsigned long long)(bytes >> 20),
                        (unsigned long long)(g->r->source->memory >> 20));
+}
+
+/* Moves the vertices that are used to the front, in their order, and renumbers the corners. */
+static bool keep_used(accel_growing *mesh)
+{
+    const size_t vertices = mesh->number_count / 3;
+    uint32_t *own = calloc(vertices + 1, sizeof *own);
+    if (own == NULL) {
+        return false;
+    }
+    for (size_t i = 0; i < mesh->index_count; i++) {
+        own[mesh->indices[i]] = 1;
+    }
+    uint32_t used = 0;
+    for (size_t i = 0; i < vertices; i++) {
+        if (own[i] != 0) {
+            memmove(mesh->numbers + 3 * (size_t)used, mesh->numbers + 3 * i, 3 * sizeof(double));
+            own[i] = used++;
+        }
+    }
+    for (size_t i = 0; i < mesh->index_count; i++) {
+        mesh->indices[i] = own[mesh->indices[i]];
+    }
+    free(own);
+    mesh->number_count = 3 * (size_t)used;
+    double *numbers = realloc(mesh->numbers, mesh->number_count * sizeof *numbers);
+    mesh->numbers = numbers == NULL ? mesh->numbers : numbers;
+    return true;
 }
 
 static bool add_primitive(gltf *g, const gltf_placed *placed, const gltf_primitive *p)
@@ -152,8 +177,8 @@ static bool add_primitive(gltf *g, const gltf_placed *placed, const gltf_primiti
     accel_growing *mesh = &g->r->mesh;
     mesh->number_count = 3 * (size_t)p->vertex_count;
     mesh->index_count = 3 * (size_t)p->triangle_count;
-    mesh->numbers = malloc(mesh->number_count * sizeof *mesh->numbers + 1);
-    mesh->indices = malloc(mesh->index_count * sizeof *mesh->indices + 1);
+    mesh->numbers = malloc(mesh->number_count * sizeof *mesh->numbers);
+    mesh->indices = malloc(mesh->index_count * sizeof *mesh->indices);
     if (mesh->numbers == NULL || mesh->indices == NULL) {
         return mesh_refuse_memory(g->r);
     }
@@ -161,7 +186,13 @@ static bool add_primitive(gltf *g, const gltf_placed *placed, const gltf_primiti
     if (g->r->source->progress != NULL) {
         g->r->source->progress(g->r->source->user, "reading");
     }
-    return gltf_place(g, placed, p, mesh->numbers) && mesh_add_geometry(g->r);
+    if (!gltf_place(g, placed, p, mesh->numbers)) {
+        return false;
+    }
+    if (mesh->index_count < p->vertex_count && !keep_used(mesh)) {
+        return mesh_refuse_memory(g->r);
+    }
+    return mesh_add_geometry(g->r);
 }
 
 static bool add_meshes(gltf *g)
@@ -170,7 +201,7 @@ static bool add_meshes(gltf *g)
         const gltf_mesh *mesh = gltf_read_mesh(g, g->placed[i].mesh);
         for (size_t k = 0; k < mesh->count; k++) {
             const gltf_primitive *p = &mesh->primitives[k];
-            if (p->triangle_count != 0 && !add_primitive(g, &g->placed[i], p)) {
+            if (!add_primitive(g, &g->placed[i], p)) {
                 return false;
             }
         }
@@ -184,7 +215,9 @@ static bool read_scene(gltf *g)
     g->mesh_count = gltf_count(g, "meshes");
     g->buffers = calloc(g->buffer_count + 1, sizeof *g->buffers);
     g->meshes = calloc(g->mesh_count + 1, sizeof *g->meshes);
-    if (g->buffers == NULL || g->meshes == NULL) {
+    g->skin_count = gltf_count(g, "skins");
+    g->skins = calloc(g->skin_count + 1, sizeof *g->skins);
+    if (g->buffers == NULL || g->meshes == NULL || g->skins == NULL) {
         return mesh_refuse_memory(g->r);
     }
     return gltf_walk(g) && check_memory(g) && add_meshes(g);
@@ -197,11 +230,14 @@ static void free_all(gltf *g)
     }
     for (size_t i = 0; g->meshes != NULL && i < g->mesh_count; i++) {
         for (size_t k = 0; k < g->meshes[i].count; k++) {
-            free(g->meshes[i].primitives[k].places);
             free(g->meshes[i].primitives[k].triangles);
         }
         free(g->meshes[i].primitives);
     }
+    for (size_t i = 0; g->skins != NULL && i < g->skin_count; i++) {
+        free(g->skins[i].joints);
+    }
+    free(g->skins);
     free(g->buffers);
     free(g->meshes);
     free(g->matrices);

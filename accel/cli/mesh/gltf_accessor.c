@@ -9,6 +9,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Numbers to read, some nanoseconds each: with the binary files of 8 GiB that are read at most, all
+ * of it four times over. */
+#define MOST_WORK ((uint64_t)1 << 33)
+
 static size_t size_of(int type)
 {
     return type == 5120 || type == 5121   ? 1
@@ -19,13 +23,13 @@ static size_t size_of(int type)
 
 static int components_of(const char *type)
 {
-    return type == NULL                ? 0
+    return type == NULL                  ? 0
            : strcmp(type, "SCALAR") == 0 ? 1
-           : strcmp(type, "VEC2") == 0 ? 2
-           : strcmp(type, "VEC3") == 0 ? 3
-           : strcmp(type, "VEC4") == 0 ? 4
-           : strcmp(type, "MAT4") == 0 ? 16
-                                       : 0;
+           : strcmp(type, "VEC2") == 0   ? 2
+           : strcmp(type, "VEC3") == 0   ? 3
+           : strcmp(type, "VEC4") == 0   ? 4
+           : strcmp(type, "MAT4") == 0   ? 16
+                                         : 0;
 }
 
 /* A component as the number that it stands for. */
@@ -109,7 +113,8 @@ typedef struct replacement {
 static bool open_sparse(gltf *g, const gltf_accessor *a, json_t *sparse, replacement *s)
 {
     const uint64_t size = (uint64_t)a->components * size_of(a->type);
-    json_t *indices = json_object_get(sparse, "indices"), *values = json_object_get(sparse, "values");
+    json_t *indices = json_object_get(sparse, "indices"),
+           *values = json_object_get(sparse, "values");
     uint64_t type, index_view, index_offset, value_view, value_offset;
     if (!gltf_whole(g, &a->object, sparse, "count", GLTF_REQUIRED, a->count, &s->count) ||
         !gltf_whole(g, &a->object, indices, "componentType", GLTF_REQUIRED, 65535, &type) ||
@@ -120,16 +125,17 @@ static bool open_sparse(gltf *g, const gltf_accessor *a, json_t *sparse, replace
         return false;
     }
     if (type != 5121 && type != 5123 && type != 5125) {
-        return gltf_refuse(g, &a->object, "has sparse indices of componentType %llu, allowed are "
-                                          "5121, 5123 and 5125",
+        return gltf_refuse(g, &a->object,
+                           "has sparse indices of componentType %llu, allowed are "
+                           "5121, 5123 and 5125",
                            (unsigned long long)type);
     }
     s->type = (int)type;
     s->indices =
         gltf_view(g, index_view, index_offset, s->count * size_of(s->type), NULL, &a->object);
-    s->values = s->indices == NULL ? NULL
-                                   : gltf_view(g, value_view, value_offset, s->count * size, NULL,
-                                               &a->object);
+    s->values = s->indices == NULL
+                    ? NULL
+                    : gltf_view(g, value_view, value_offset, s->count * size, NULL, &a->object);
     return s->values != NULL;
 }
 
@@ -147,8 +153,9 @@ static bool replace(gltf *g, const gltf_accessor *a, const replacement *s, doubl
     for (uint64_t i = 0; i < s->count; i++) {
         const double index = component(s->indices + i * size_of(s->type), s->type, false);
         if (!(index > last && index < (double)a->count)) {
-            return gltf_refuse(g, &a->object, "has sparse indices that do not rise, or that are "
-                                              "beyond its %llu elements",
+            return gltf_refuse(g, &a->object,
+                               "has sparse indices that do not rise, or that are "
+                               "beyond its %llu elements",
                                (unsigned long long)a->count);
         }
         last = index;
@@ -159,6 +166,11 @@ static bool replace(gltf *g, const gltf_accessor *a, const replacement *s, doubl
 
 bool gltf_read_accessor(gltf *g, const gltf_accessor *a, double *numbers)
 {
+    g->work += a->count * (uint64_t)a->components;
+    if (g->work > MOST_WORK) {
+        return gltf_refuse(g, &a->object,
+                           "and others are used so often that reading takes too long");
+    }
     json_t *sparse = json_object_get(a->object.json, "sparse");
     const size_t components = (size_t)a->components;
     if (a->bytes == NULL) {

@@ -35,8 +35,8 @@ bool gltf_find(gltf *g, const char *list, uint64_t index, gltf_object *found)
     return json_is_object(found->json) || gltf_refuse(g, found, "is no object");
 }
 
-bool gltf_whole(gltf *g, const gltf_object *object, json_t *json, const char *key, uint64_t standard,
-                uint64_t most, uint64_t *number)
+bool gltf_whole(gltf *g, const gltf_object *object, json_t *json, const char *key,
+                uint64_t standard, uint64_t most, uint64_t *number)
 {
     const json_t *value = json_object_get(json, key);
     if (value == NULL && standard != GLTF_REQUIRED) {
@@ -55,8 +55,8 @@ bool gltf_whole(gltf *g, const gltf_object *object, json_t *json, const char *ke
     return true;
 }
 
-bool gltf_numbers(gltf *g, const gltf_object *object, const char *key, size_t count, double *numbers,
-                  bool *given)
+bool gltf_numbers(gltf *g, const gltf_object *object, const char *key, size_t count,
+                  double *numbers, bool *given)
 {
     const json_t *value = json_object_get(object->json, key);
     *given = value != NULL;

@@ -48,10 +48,10 @@ static bool load_corners(gltf *g, const gltf_object *mesh, const gltf_primitive 
     if (!gltf_open_accessor(g, index, &a)) {
         return false;
     }
-    if (a.components != 1 || a.normalized ||
-        (a.type != 5121 && a.type != 5123 && a.type != 5125)) {
-        return gltf_refuse(g, &a.object, "is used for indices, allowed is SCALAR of componentType "
-                                         "5121, 5123 or 5125");
+    if (a.components != 1 || a.normalized || (a.type != 5121 && a.type != 5123 && a.type != 5125)) {
+        return gltf_refuse(g, &a.object,
+                           "is used for indices, allowed is SCALAR of componentType "
+                           "5121, 5123 or 5125");
     }
     c->indices = gltf_load_accessor(g, &a);
     c->count = a.count;
@@ -85,14 +85,15 @@ static void write_triangles(uint64_t mode, const corners *c, gltf_primitive *p)
     }
 }
 
-static bool make_triangles(gltf *g, const gltf_object *mesh, const corners *c, gltf_primitive *p)
+static bool make_triangles(gltf *g, const gltf_object *mesh, const corners *c, gltf_primitive *p,
+                           uint64_t *left_out)
 {
     uint64_t mode;
     if (!gltf_whole(g, mesh, p->json, "mode", TRIANGLES, TRIANGLE_FAN, &mode)) {
         return false;
     }
     if (mode < TRIANGLES) {
-        p->left_out = count_left_out(mode, c->count);
+        *left_out += count_left_out(mode, c->count);
         return true;
     }
     if (mode == TRIANGLES ? c->count % 3 != 0 : c->count == 1 || c->count == 2) {
@@ -110,41 +111,62 @@ static bool make_triangles(gltf *g, const gltf_object *mesh, const corners *c, g
     return true;
 }
 
-/* May coordinates be of this type? Whole numbers are an extension's. */
-static bool is_place(const gltf *g, const gltf_accessor *a)
-{
-    return a->components == 3 &&
-           (a->type == 5126 ? !a->normalized : g->is_quantized && a->type <= 5123);
-}
-
-static bool load_places(gltf *g, const gltf_object *mesh, gltf_primitive *p)
-{
-    json_t *attributes = json_object_get(p->json, "attributes");
-    gltf_accessor a;
-    uint64_t index;
-    if (!gltf_whole(g, mesh, attributes, "POSITION", GLTF_REQUIRED, GLTF_MOST, &index) ||
-        !gltf_open_accessor(g, index, &a)) {
-        return false;
-    }
-    if (!is_place(g, &a)) {
-        return gltf_refuse(g, &a.object, "is used for POSITION, allowed is VEC3 of componentType "
-                                         "5126, or with KHR_mesh_quantization 5120 to 5123");
-    }
-    p->vertex_count = (uint32_t)a.count;
-    p->places = gltf_load_accessor(g, &a);
-    return p->places != NULL;
-}
-
-static bool read_primitive(gltf *g, const gltf_object *mesh, gltf_primitive *p)
+/* Reads a primitive. One without triangles has none, and its points and lines are counted. */
+static bool read_primitive(gltf *g, const gltf_object *mesh, gltf_primitive *p, uint64_t *left_out)
 {
     corners c = {0};
+    gltf_accessor places;
     if (!json_is_object(p->json)) {
         return gltf_refuse(g, mesh, "has a primitive that is no object");
     }
-    const bool fine = load_places(g, mesh, p) && load_corners(g, mesh, p, &c) &&
-                      make_triangles(g, mesh, &c, p);
+    if (!gltf_open_places(g, mesh, p->json, &places)) {
+        return false;
+    }
+    p->vertex_count = (uint32_t)places.count;
+    const bool fine = load_corners(g, mesh, p, &c) && make_triangles(g, mesh, &c, p, left_out);
     free(c.indices);
     return fine;
+}
+
+/* What it takes where it is placed: no more vertices than it uses. */
+static uint64_t placed_bytes(const gltf_primitive *p)
+{
+    const uint64_t corners = 3 * (uint64_t)p->triangle_count;
+    return 24 * (corners < p->vertex_count ? corners : p->vertex_count) + 4 * corners;
+}
+
+/* Keeps it where it has triangles. */
+static bool add_primitive(gltf *g, gltf_mesh *mesh, const gltf_primitive *p)
+{
+    if (p->triangle_count == 0) {
+        free(p->triangles);
+        return true;
+    }
+    mesh->primitives[mesh->count++] = *p;
+    mesh->triangles += p->triangle_count;
+    mesh->bytes += placed_bytes(p);
+    g->bytes += 12 * (uint64_t)p->triangle_count;
+    return g->bytes <= g->r->source->memory || mesh_refuse_memory(g->r);
+}
+
+static bool read_primitives(gltf *g, const gltf_object *object, json_t *list, gltf_mesh *mesh)
+{
+    mesh->primitives = calloc(json_array_size(list), sizeof *mesh->primitives);
+    if (mesh->primitives == NULL) {
+        return mesh_refuse_memory(g->r);
+    }
+    for (size_t i = 0; i < json_array_size(list); i++) {
+        gltf_primitive p = {.json = json_array_get(list, i)};
+        if (!read_primitive(g, object, &p, &mesh->left_out)) {
+            free(p.triangles);
+            return false;
+        }
+        if (!add_primitive(g, mesh, &p)) {
+            return false;
+        }
+    }
+    mesh->read = true;
+    return true;
 }
 
 const gltf_mesh *gltf_read_mesh(gltf *g, size_t index)
@@ -159,22 +181,8 @@ const gltf_mesh *gltf_read_mesh(gltf *g, size_t index)
         return mesh;
     }
     json_t *list = gltf_list(g, &object, object.json, "primitives", &fine);
-    if (json_array_size(list) == 0) {
-        fine = fine && gltf_refuse(g, &object, "has no primitives");
-        return NULL;
+    if (fine && json_array_size(list) == 0) {
+        fine = gltf_refuse(g, &object, "has no primitives");
     }
-    mesh->primitives = calloc(json_array_size(list), sizeof *mesh->primitives);
-    if (mesh->primitives == NULL) {
-        mesh_refuse_memory(g->r);
-        return NULL;
-    }
-    for (; mesh->count < json_array_size(list); mesh->count++) {
-        mesh->primitives[mesh->count].json = json_array_get(list, mesh->count);
-        if (!read_primitive(g, &object, &mesh->primitives[mesh->count])) {
-            mesh->count++;
-            return NULL;
-        }
-    }
-    mesh->read = true;
-    return mesh;
+    return fine && read_primitives(g, &object, list, mesh) ? mesh : NULL;
 }

@@ -45,13 +45,12 @@ gltf_matrix gltf_from_columns(const double columns[16])
 static gltf_matrix from_parts(const double t[3], const double q[4], const double s[3])
 {
     const double x = q[0], y = q[1], z = q[2], w = q[3];
-    return (gltf_matrix){
-        {{s[0] * (1 - 2 * (y * y + z * z)), s[1] * 2 * (x * y - z * w), s[2] * 2 * (x * z + y * w),
-          t[0]},
-         {s[0] * 2 * (x * y + z * w), s[1] * (1 - 2 * (x * x + z * z)), s[2] * 2 * (y * z - x * w),
-          t[1]},
-         {s[0] * 2 * (x * z - y * w), s[1] * 2 * (y * z + x * w), s[2] * (1 - 2 * (x * x + y * y)),
-          t[2]}}};
+    return (gltf_matrix){{{s[0] * (1 - 2 * (y * y + z * z)), s[1] * 2 * (x * y - z * w),
+                           s[2] * 2 * (x * z + y * w), t[0]},
+                          {s[0] * 2 * (x * y + z * w), s[1] * (1 - 2 * (x * x + z * z)),
+                           s[2] * 2 * (y * z - x * w), t[1]},
+                          {s[0] * 2 * (x * z - y * w), s[1] * 2 * (y * z + x * w),
+                           s[2] * (1 - 2 * (x * x + y * y)), t[2]}}};
 }
 
 /* The matrix from the node to its parent. */
@@ -101,12 +100,12 @@ static bool place(gltf *g, size_t node, size_t mesh)
 typedef struct stack {
     struct {
         size_t node, parent;
-    } *items;
+    } * items;
     size_t count;
 } stack;
 
-/* Puts children on the stack in reverse order. All together they are not more than the nodes, or one
- * is met twice. */
+/* Puts children on the stack in reverse order. All together they are not more than the nodes, or
+ * one is met twice. */
 static bool push(gltf *g, const gltf_object *object, const char *key, size_t parent, stack *s)
 {
     bool fine;

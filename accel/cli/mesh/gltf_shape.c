@@ -1,14 +1,39 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Where the vertices of a placed primitive are: moved by morph targets, then by the joints of a skin
- * or by the node's matrix, all in double. A skin replaces the matrix of its node. Weights of joints
- * are divided by their sum.
+ * Where the vertices of a placed primitive are: moved by morph targets, then by the joints of a
+ * skin or by the node's matrix, all in double. A skin replaces the matrix of its node. Weights of
+ * joints are divided by their sum.
  */
 #include "gltf.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* May coordinates be of this type? Whole numbers are an extension's. */
+static bool is_place(const gltf *g, const gltf_accessor *a)
+{
+    return a->components == 3 &&
+           (a->type == 5126 ? !a->normalized : g->is_quantized && a->type <= 5123);
+}
+
+bool gltf_open_places(gltf *g, const gltf_object *mesh, json_t *primitive, gltf_accessor *a)
+{
+    uint64_t index;
+    if (!gltf_whole(g, mesh, json_object_get(primitive, "attributes"), "POSITION", GLTF_REQUIRED,
+                    GLTF_MOST, &index) ||
+        !gltf_open_accessor(g, index, a)) {
+        return false;
+    }
+    if (24 * a->count > g->r->source->memory) {
+        return gltf_refuse(g, &a->object, "has %llu elements, which do not fit into memory",
+                           (unsigned long long)a->count);
+    }
+    return is_place(g, a) ||
+           gltf_refuse(g, &a->object,
+                       "is used for POSITION, allowed is VEC3 of componentType 5126, "
+                       "or with KHR_mesh_quantization 5120 to 5123");
+}
 
 /* Is it a list of numbers? */
 static bool are_weights(const json_t *weights)
@@ -36,8 +61,9 @@ static bool add_target(gltf *g, const gltf_object *mesh, json_t *target, double 
         return false;
     }
     if (a.components != 3 || a.count != p->vertex_count) {
-        return gltf_refuse(g, &a.object, "is used for a morph target, allowed is VEC3 and as many "
-                                         "as there are vertices");
+        return gltf_refuse(g, &a.object,
+                           "is used for a morph target, allowed is VEC3 and as many "
+                           "as there are vertices");
     }
     double *moves = gltf_load_accessor(g, &a);
     for (size_t i = 0; moves != NULL && i < 3 * (size_t)p->vertex_count; i++) {
@@ -68,14 +94,7 @@ static bool morph(gltf *g, const gltf_object *node, const gltf_object *mesh,
     return fine;
 }
 
-/* The joints of a skin: a matrix for each, from the mesh to the scene. */
-typedef struct skin {
-    gltf_object object;
-    gltf_matrix *joints;
-    size_t count;
-} skin;
-
-static bool multiply_joints(gltf *g, skin *s, const json_t *list, const double *inverse)
+static bool multiply_joints(gltf *g, gltf_skin *s, const json_t *list, const double *inverse)
 {
     for (size_t i = 0; i < s->count; i++) {
         const json_t *item = json_array_get(list, i);
@@ -92,13 +111,22 @@ static bool multiply_joints(gltf *g, skin *s, const json_t *list, const double *
     return true;
 }
 
-static bool open_skin(gltf *g, uint64_t index, skin *s)
+/* Fills the joints of a skin, once. */
+static bool open_skin(gltf *g, uint64_t index)
 {
+    gltf_object object;
     gltf_accessor a;
     uint64_t inverse;
     bool fine;
-    if (!gltf_find(g, "skins", index, &s->object) ||
-        !gltf_whole(g, &s->object, s->object.json, "inverseBindMatrices", GLTF_MOST, GLTF_MOST - 1,
+    if (!gltf_find(g, "skins", index, &object)) {
+        return false;
+    }
+    gltf_skin *s = &g->skins[index];
+    if (s->joints != NULL) {
+        return true;
+    }
+    s->object = object;
+    if (!gltf_whole(g, &s->object, s->object.json, "inverseBindMatrices", GLTF_MOST, GLTF_MOST - 1,
                     &inverse)) {
         return false;
     }
@@ -108,8 +136,9 @@ static bool open_skin(gltf *g, uint64_t index, skin *s)
     if (fine && inverse != GLTF_MOST) {
         fine = gltf_open_accessor(g, inverse, &a) &&
                ((a.components == 16 && a.type == 5126 && a.count >= s->count) ||
-                gltf_refuse(g, &a.object, "is used for a skin, allowed is MAT4 of componentType "
-                                          "5126, one for each joint")) &&
+                gltf_refuse(g, &a.object,
+                            "is used for a skin, allowed is MAT4 of componentType "
+                            "5126, one for each joint")) &&
                (numbers = gltf_load_accessor(g, &a)) != NULL;
     }
     s->joints = fine ? malloc(s->count * sizeof *s->joints + 1) : NULL;
@@ -121,7 +150,7 @@ static bool open_skin(gltf *g, uint64_t index, skin *s)
 
 /* Adds what a set of four joints and weights makes of the vertices. Where a primitive has no set of
  * this number, *there becomes false. */
-static bool add_set(gltf *g, const gltf_object *mesh, const skin *s, const gltf_primitive *p,
+static bool add_set(gltf *g, const gltf_object *mesh, const gltf_skin *s, const gltf_primitive *p,
                     int number, const double *places, double (*sums)[4], bool *there)
 {
     json_t *attributes = json_object_get(p->json, "attributes");
@@ -168,8 +197,8 @@ static bool add_set(gltf *g, const gltf_object *mesh, const skin *s, const gltf_
     return fine;
 }
 
-static bool move_by_skin(gltf *g, const gltf_object *mesh, const skin *s, const gltf_primitive *p,
-                         double *places)
+static bool move_by_skin(gltf *g, const gltf_object *mesh, const gltf_skin *s,
+                         const gltf_primitive *p, double *places)
 {
     double(*sums)[4] = calloc((size_t)p->vertex_count + 1, sizeof *sums);
     bool there = true, fine = sums != NULL || mesh_refuse_memory(g->r);
@@ -196,19 +225,17 @@ static bool is_identity(const gltf_matrix *a)
 bool gltf_place(gltf *g, const gltf_placed *placed, const gltf_primitive *p, double *places)
 {
     gltf_object node, mesh;
+    gltf_accessor a;
     uint64_t index;
-    memcpy(places, p->places, 3 * (size_t)p->vertex_count * sizeof *places);
     if (!gltf_find(g, "nodes", placed->node, &node) ||
         !gltf_find(g, "meshes", placed->mesh, &mesh) ||
         !gltf_whole(g, &node, node.json, "skin", GLTF_MOST, GLTF_MOST - 1, &index) ||
+        !gltf_open_places(g, &mesh, p->json, &a) || !gltf_read_accessor(g, &a, places) ||
         !morph(g, &node, &mesh, p, places)) {
         return false;
     }
     if (index != GLTF_MOST) {
-        skin s = {0};
-        const bool fine = open_skin(g, index, &s) && move_by_skin(g, &mesh, &s, p, places);
-        free(s.joints);
-        return fine;
+        return open_skin(g, index) && move_by_skin(g, &mesh, &g->skins[index], p, places);
     }
     const gltf_matrix *matrix = &g->matrices[placed->node];
     for (size_t i = 0; i < p->vertex_count && !is_identity(matrix); i++) {

@@ -162,10 +162,11 @@ static bool finish(mesh_reader *r)
 /* Without its reader: what is no mesh in any of the formats. */
 static bool read_as(mesh_reader *r, accel_mesh_format format)
 {
-    static mesh_read *const readers[] = {
-        [ACCEL_MESH_OBJ] = mesh_read_obj, [ACCEL_MESH_PLY] = mesh_read_ply,
-        [ACCEL_MESH_STL] = mesh_read_stl, [ACCEL_MESH_OFF] = mesh_read_off,
-        [ACCEL_MESH_GLTF] = mesh_read_gltf};
+    static mesh_read *const readers[] = {[ACCEL_MESH_OBJ] = mesh_read_obj,
+                                         [ACCEL_MESH_PLY] = mesh_read_ply,
+                                         [ACCEL_MESH_STL] = mesh_read_stl,
+                                         [ACCEL_MESH_OFF] = mesh_read_off,
+                                         [ACCEL_MESH_GLTF] = mesh_read_gltf};
     if (format == ACCEL_MESH_OTHER) {
         return mesh_refuse(r, "is no OBJ, PLY, STL, OFF or glTF file");
     }
@@ -185,8 +186,7 @@ bool accel_mesh_read(accel_loaded *out, const accel_mesh_source *source, accel_e
                      .error = error,
                      .text = text_of(source->bytes, source->size),
                      .cutter.most_work = MOST_CUTTING};
-    const bool fine =
-        read_as(&r, accel_mesh_recognise(source->name, source->bytes, source->size));
+    const bool fine = read_as(&r, accel_mesh_recognise(source->name, source->bytes, source->size));
     free_reader(&r);
     return fine;
 }

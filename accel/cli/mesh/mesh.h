@@ -2,9 +2,9 @@
  *
  * Mesh files that are read strictly: OBJ, PLY, STL, OFF and glTF 2.0, from bytes in memory.
  *
- * Either the mesh that the file holds comes out, or one line that says where the file is wrong, what
- * was found and what is allowed: nothing is guessed, joined, sorted, welded or dropped, but for
- * points and lines, which are counted. Numbers of text become the nearest double, whatever the
+ * Either the mesh that the file holds comes out, or one line that says where the file is wrong,
+ * what was found and what is allowed: nothing is guessed, joined, sorted, welded or dropped, but
+ * for points and lines, which are counted. Numbers of text become the nearest double, whatever the
  * locale; those of binary files keep their value. Time and memory are bounded by the file's size,
  * but for glTF, whose meshes can be placed many times, and which `memory` bounds.
  */

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Wavefront OBJ ("Object Files", Advanced Visualizer manual, version 3.0, appendix B1): faces, which
- * may come before their vertices. Texture coordinates, normals and all that is drawn with a face is
- * passed over. Points, lines and curves are left out; surfaces, other files and unknown statements
- * are refused. The weight of a vertex is for curves: it does not move the corner of a face.
+ * Wavefront OBJ ("Object Files", Advanced Visualizer manual, version 3.0, appendix B1): faces,
+ * which may come before their vertices. Texture coordinates, normals and all that is drawn with a
+ * face is passed over. Points, lines and curves are left out; surfaces, other files and unknown
+ * statements are refused. The weight of a vertex is for curves: it does not move the corner of a
+ * face.
  *
  * Each object or group that has faces is a geometry, a run of faces under one name; of several ones
  * each keeps the vertices that it uses, in the order in which it uses them.
@@ -30,21 +31,21 @@ static const struct {
     read_statement *read;
     bool is_text; /* any text may follow, with '#' and '\' in it */
 } statements[] = {
-    {"v", vertex, false},       {"f", face, false},          {"vn", skip, false},
-    {"vt", skip, false},        {"g", part, true},           {"o", part, true},
-    {"s", skip, true},          {"usemtl", skip, true},      {"mtllib", skip, true},
-    {"l", polyline, false},     {"p", points, false},        {"fo", face, false},
-    {"vp", skip, false},        {"vc", skip, false},         {"curv", curve, false},
-    {"curv2", skip, false},     {"cdc", curve, false},       {"surf", surface, false},
-    {"bsp", surface, false},    {"bzp", surface, false},     {"cdp", surface, false},
-    {"cstype", skip, false},    {"deg", skip, false},        {"bmat", skip, false},
-    {"step", skip, false},      {"parm", skip, false},       {"trim", skip, false},
-    {"hole", skip, false},      {"scrv", skip, false},       {"sp", skip, false},
-    {"end", skip, false},       {"con", skip, false},        {"res", skip, false},
-    {"mg", skip, true},         {"bevel", skip, true},       {"c_interp", skip, true},
-    {"d_interp", skip, true},   {"lod", skip, true},         {"shadow_obj", skip, true},
-    {"trace_obj", skip, true},  {"ctech", skip, true},       {"stech", skip, true},
-    {"maplib", skip, true},     {"usemap", skip, true},      {"call", other_file, true},
+    {"v", vertex, false},      {"f", face, false},      {"vn", skip, false},
+    {"vt", skip, false},       {"g", part, true},       {"o", part, true},
+    {"s", skip, true},         {"usemtl", skip, true},  {"mtllib", skip, true},
+    {"l", polyline, false},    {"p", points, false},    {"fo", face, false},
+    {"vp", skip, false},       {"vc", skip, false},     {"curv", curve, false},
+    {"curv2", skip, false},    {"cdc", curve, false},   {"surf", surface, false},
+    {"bsp", surface, false},   {"bzp", surface, false}, {"cdp", surface, false},
+    {"cstype", skip, false},   {"deg", skip, false},    {"bmat", skip, false},
+    {"step", skip, false},     {"parm", skip, false},   {"trim", skip, false},
+    {"hole", skip, false},     {"scrv", skip, false},   {"sp", skip, false},
+    {"end", skip, false},      {"con", skip, false},    {"res", skip, false},
+    {"mg", skip, true},        {"bevel", skip, true},   {"c_interp", skip, true},
+    {"d_interp", skip, true},  {"lod", skip, true},     {"shadow_obj", skip, true},
+    {"trace_obj", skip, true}, {"ctech", skip, true},   {"stech", skip, true},
+    {"maplib", skip, true},    {"usemap", skip, true},  {"call", other_file, true},
     {"csh", other_file, true},
 };
 
@@ -95,8 +96,9 @@ static bool vertex(obj *o)
     mesh_skip_blanks(text);
     while (!mesh_at_line_end(text)) {
         if (count == 8) {
-            return mesh_refuse_line(o->r, text->line, "a vertex of more than 8 numbers, allowed are "
-                                                      "x y z, a weight and a colour");
+            return mesh_refuse_line(o->r, text->line,
+                                    "a vertex of more than 8 numbers, allowed are "
+                                    "x y z, a weight and a colour");
         }
         if (!mesh_take_number(text, &numbers[count++])) {
             return mesh_expect(o->r, "a decimal number in the range of double");
@@ -104,8 +106,9 @@ static bool vertex(obj *o)
         mesh_skip_blanks(text);
     }
     if (count < 3 || count == 5) {
-        return mesh_refuse_line(o->r, text->line, "a vertex of %d numbers, allowed are x y z, a "
-                                                  "weight and a colour",
+        return mesh_refuse_line(o->r, text->line,
+                                "a vertex of %d numbers, allowed are x y z, a "
+                                "weight and a colour",
                                 count);
     }
     accel_grow_vertex(&o->r->mesh, numbers[0], numbers[1], numbers[2]);
@@ -136,10 +139,11 @@ static bool corner(obj *o)
         return mesh_expect(r, "a corner v, v/vt, v//vn or v/vt/vn of whole numbers");
     }
     if (index == 0 || index < -vertices || index >= (int64_t)UINT32_MAX) {
-        return mesh_refuse_line(r, text->line,
-                                "a face refers to vertex %lld where there are %lld, allowed is 1 to "
-                                "their number, or -1 for the last one and so on",
-                                (long long)index, (long long)vertices);
+        return mesh_refuse_line(
+            r, text->line,
+            "a face refers to vertex %lld where there are %lld, allowed is 1 to "
+            "their number, or -1 for the last one and so on",
+            (long long)index, (long long)vertices);
     }
     return mesh_indices_add(&r->face, (uint32_t)(index < 0 ? vertices + index : index - 1)) ||
            mesh_refuse_memory(r);

@@ -96,8 +96,9 @@ static bool add_vertex(mesh_reader *r, const header *h, double place[4])
 {
     if (h->four) {
         if (place[3] == 0.0) {
-            return mesh_refuse(r, "vertex %llu, counted from 0, is at infinity: its fourth number is 0",
-                               (unsigned long long)(r->mesh.number_count / 3));
+            return mesh_refuse(
+                r, "vertex %llu, counted from 0, is at infinity: its fourth number is 0",
+                (unsigned long long)(r->mesh.number_count / 3));
         }
         for (int k = 0; k < 3; k++) {
             place[k] /= place[3];
@@ -150,8 +151,9 @@ static bool take_vertices(mesh_reader *r, const header *h)
 static bool add_corner(mesh_reader *r, uint64_t line, int64_t index, uint64_t vertices)
 {
     if (index < 0 || (uint64_t)index >= vertices) {
-        return mesh_refuse_line(r, line, "a face refers to vertex %lld, but the file has %llu, "
-                                         "counted from 0",
+        return mesh_refuse_line(r, line,
+                                "a face refers to vertex %lld, but the file has %llu, "
+                                "counted from 0",
                                 (long long)index, (unsigned long long)vertices);
     }
     return mesh_indices_add(&r->face, (uint32_t)index) || mesh_refuse_memory(r);
@@ -187,10 +189,11 @@ static bool take_faces(mesh_reader *r, const header *h)
             return false;
         }
         if (colours > 4) {
-            return mesh_refuse_line(r, r->text.line,
-                                    "a face with %llu numbers behind its corners, allowed are up to "
-                                    "4 of a colour",
-                                    (unsigned long long)colours);
+            return mesh_refuse_line(
+                r, r->text.line,
+                "a face with %llu numbers behind its corners, allowed are up to "
+                "4 of a colour",
+                (unsigned long long)colours);
         }
         if (!mesh_add_face(r, r->text.line)) {
             return false;
@@ -264,8 +267,9 @@ static bool take_binary_face(mesh_reader *r, const header *h, rest *b)
             return false;
         }
         if (index >= h->vertices) {
-            return mesh_refuse_byte(r, b->at - 4, "a face refers to vertex %llu, but the file has "
-                                                  "%llu, counted from 0",
+            return mesh_refuse_byte(r, b->at - 4,
+                                    "a face refers to vertex %llu, but the file has "
+                                    "%llu, counted from 0",
                                     (unsigned long long)index, (unsigned long long)h->vertices);
         }
         if (!mesh_indices_add(&r->face, (uint32_t)index)) {
@@ -276,8 +280,9 @@ static bool take_binary_face(mesh_reader *r, const header *h, rest *b)
         return false;
     }
     if (colours > 4 || (uint64_t)(b->end - b->at) < 4 * colours) {
-        return mesh_refuse_byte(r, b->at - 4, "found a colour of %llu numbers, allowed are up to 4 "
-                                              "that are there",
+        return mesh_refuse_byte(r, b->at - 4,
+                                "found a colour of %llu numbers, allowed are up to 4 "
+                                "that are there",
                                 (unsigned long long)colours);
     }
     b->at += 4 * colours;

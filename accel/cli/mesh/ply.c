@@ -15,9 +15,9 @@
 typedef struct body {
     mesh_reader *r;
     const ply *p;
-    const char *at; /* of what is binary */
-    double place[3]; /* of the vertex under way */
-    uint32_t strip[3]; /* the last corners of the strip under way */
+    const char *at;       /* of what is binary */
+    double place[3];      /* of the vertex under way */
+    uint32_t strip[3];    /* the last corners of the strip under way */
     uint64_t strip_count; /* since it began */
 } body;
 
@@ -30,7 +30,8 @@ static uint64_t place_of(const body *b)
 static bool wrong(body *b, double found, const char *wanted)
 {
     return b->p->form == PLY_TEXT
-               ? mesh_refuse_line(b->r, b->r->text.line, "found %.17g, allowed is %s", found, wanted)
+               ? mesh_refuse_line(b->r, b->r->text.line, "found %.17g, allowed is %s", found,
+                                  wanted)
                : mesh_refuse_byte(b->r, b->at, "found %.17g, allowed is %s", found, wanted);
 }
 
@@ -105,8 +106,8 @@ static bool take_list_count(body *b, const ply_property *property, uint64_t *cou
         return false;
     }
     const bool text = b->p->form == PLY_TEXT;
-    const size_t there = text ? (size_t)(b->r->text.end - b->r->text.at) / 2
-                              : left(b) / ply_size(property->type);
+    const size_t there =
+        text ? (size_t)(b->r->text.end - b->r->text.at) / 2 : left(b) / ply_size(property->type);
     if (!(number >= 0.0 && number <= (double)there) || number != (double)(uint64_t)number) {
         return wrong(b, number, "a list's count that the rest of the file can hold");
     }
@@ -219,9 +220,9 @@ static size_t least_size(const body *b, const ply_element *e)
     size_t size = 0;
     for (size_t k = e->first; k < e->first + e->property_count; k++) {
         const ply_property *property = &b->p->properties[k];
-        size += b->p->form == PLY_TEXT ? 2
-                                       : ply_size(property->list == PLY_NONE ? property->type
-                                                                             : property->list);
+        size += b->p->form == PLY_TEXT
+                    ? 2
+                    : ply_size(property->list == PLY_NONE ? property->type : property->list);
     }
     return size;
 }
@@ -243,11 +244,12 @@ static bool take_element(body *b, const ply_element *e)
     const size_t there = text ? (size_t)(b->r->text.end - b->r->text.at) + 1 : left(b);
     char name[MESH_FOUND_TEXT];
     if (least != 0 && e->count > there / least) {
-        return mesh_refuse(b->r,
-                           "its PLY header promises %llu of element %s, but the %llu bytes that are "
-                           "left cannot hold them",
-                           (unsigned long long)e->count, mesh_quote(e->name, e->name_length, name),
-                           (unsigned long long)(text ? there - 1 : there));
+        return mesh_refuse(
+            b->r,
+            "its PLY header promises %llu of element %s, but the %llu bytes that are "
+            "left cannot hold them",
+            (unsigned long long)e->count, mesh_quote(e->name, e->name_length, name),
+            (unsigned long long)(text ? there - 1 : there));
     }
     b->r->out->left_out += e->role == PLY_EDGE ? e->count : 0;
     if (least == 0 || (!text && e->role != PLY_VERTEX && is_fixed(b, e))) {
@@ -277,13 +279,12 @@ static bool take_body(mesh_reader *r, const ply *p)
     if (r->largest > vertices) {
         const char *const trouble = "a face refers to vertex %llu, but the file has %llu, counted "
                                     "from 0";
-        return p->form == PLY_TEXT
-                   ? mesh_refuse_line(r, r->largest_place, trouble,
-                                      (unsigned long long)r->largest - 1,
-                                      (unsigned long long)vertices)
-                   : mesh_refuse_byte(r, r->source->bytes + r->largest_place - 1, trouble,
-                                      (unsigned long long)r->largest - 1,
-                                      (unsigned long long)vertices);
+        return p->form == PLY_TEXT ? mesh_refuse_line(r, r->largest_place, trouble,
+                                                      (unsigned long long)r->largest - 1,
+                                                      (unsigned long long)vertices)
+                                   : mesh_refuse_byte(r, r->source->bytes + r->largest_place - 1,
+                                                      trouble, (unsigned long long)r->largest - 1,
+                                                      (unsigned long long)vertices);
     }
     mesh_note_rest(r, p->form == PLY_TEXT ? r->text.at : b.at);
     return mesh_cut_late(r) && mesh_add_geometry(r);

@@ -39,8 +39,8 @@ typedef struct ply_element {
     size_t name_length;
     ply_role role;
     uint64_t count;
-    uint64_t line;                 /* of the header */
-    size_t first, property_count;  /* in ply.properties */
+    uint64_t line;                /* of the header */
+    size_t first, property_count; /* in ply.properties */
 } ply_element;
 
 typedef struct ply {

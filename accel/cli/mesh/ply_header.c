@@ -2,8 +2,8 @@
  *
  * The header of a PLY file (Turk, "The PLY Polygon File Format", 1994).
  *
- * Its lines end as the first one does, which tells a binary file's first byte from a line's end. The
- * names of numbers are those of that paper, those with sizes, and of 64 bits int64 and uint64.
+ * Its lines end as the first one does, which tells a binary file's first byte from a line's end.
+ * The names of numbers are those of that paper, those with sizes, and of 64 bits int64 and uint64.
  */
 #include "ply.h"
 
@@ -21,11 +21,11 @@ static ply_type type_of(const char *word, size_t length)
     static const struct {
         const char *name;
         ply_type type;
-    } types[] = {{"char", PLY_INT8},     {"uchar", PLY_UINT8},    {"short", PLY_INT16},
-                 {"ushort", PLY_UINT16}, {"int", PLY_INT32},      {"uint", PLY_UINT32},
-                 {"float", PLY_FLOAT},   {"double", PLY_DOUBLE},  {"int8", PLY_INT8},
-                 {"uint8", PLY_UINT8},   {"int16", PLY_INT16},    {"uint16", PLY_UINT16},
-                 {"int32", PLY_INT32},   {"uint32", PLY_UINT32},  {"int64", PLY_INT64},
+    } types[] = {{"char", PLY_INT8},     {"uchar", PLY_UINT8},   {"short", PLY_INT16},
+                 {"ushort", PLY_UINT16}, {"int", PLY_INT32},     {"uint", PLY_UINT32},
+                 {"float", PLY_FLOAT},   {"double", PLY_DOUBLE}, {"int8", PLY_INT8},
+                 {"uint8", PLY_UINT8},   {"int16", PLY_INT16},   {"uint16", PLY_UINT16},
+                 {"int32", PLY_INT32},   {"uint32", PLY_UINT32}, {"int64", PLY_INT64},
                  {"uint64", PLY_UINT64}, {"float32", PLY_FLOAT}, {"float64", PLY_DOUBLE}};
     for (size_t i = 0; i < sizeof types / sizeof types[0]; i++) {
         if (mesh_same_word(word, length, types[i].name)) {
@@ -54,9 +54,10 @@ static bool take_type(mesh_reader *r, bool whole, ply_type *type)
         return true;
     }
     text->at = begin;
-    return mesh_expect(r, whole ? "the whole type of a list's count: uchar, int, uint32 and the like"
-                                : "a type: char, uchar, short, ushort, int, uint, float, double, "
-                                  "int8 to uint64, float32 or float64");
+    return mesh_expect(r, whole
+                              ? "the whole type of a list's count: uchar, int, uint32 and the like"
+                              : "a type: char, uchar, short, ushort, int, uint, float, double, "
+                                "int8 to uint64, float32 or float64");
 }
 
 static ply_role role_of(const char *name, size_t length)
@@ -194,8 +195,9 @@ static bool take_format(mesh_reader *r, ply *p, bool *given)
         }
     }
     r->text.at = *given ? r->text.at : begin;
-    return *given || mesh_expect(r, "one of ascii, binary_little_endian and binary_big_endian, with "
-                                    "version 1.0");
+    return *given ||
+           mesh_expect(r, "one of ascii, binary_little_endian and binary_big_endian, with "
+                          "version 1.0");
 }
 
 /* Takes a line of the header but for its end. */
@@ -207,8 +209,9 @@ static bool take_line(mesh_reader *r, ply *p, bool *format, bool *ended)
     const size_t length = mesh_take_word(&r->text, &word);
     if (length == 0) {
         return r->text.at < r->text.end ||
-               mesh_refuse_line(r, r->text.line, "the file ends within its header, allowed is that "
-                                                 "end_header comes first");
+               mesh_refuse_line(r, r->text.line,
+                                "the file ends within its header, allowed is that "
+                                "end_header comes first");
     }
     if (mesh_same_word(word, length, "comment") || mesh_same_word(word, length, "obj_info")) {
         mesh_skip_line(&r->text);
@@ -257,19 +260,22 @@ static bool check(mesh_reader *r, const ply *p)
         }
         const bool faces = e->role == PLY_FACE || e->role == PLY_STRIPS;
         if (faces && e->count > 0 && !used[PLY_CORNERS]) {
-            return mesh_refuse_line(r, e->line, "faces without a list vertex_indices or "
-                                                "vertex_index");
+            return mesh_refuse_line(r, e->line,
+                                    "faces without a list vertex_indices or "
+                                    "vertex_index");
         }
         if (!faces && e->count > 0 && used[PLY_CORNERS]) {
-            return mesh_refuse_line(r, e->line, "an unknown element of vertices, allowed are face "
-                                                "and tristrips");
+            return mesh_refuse_line(r, e->line,
+                                    "an unknown element of vertices, allowed are face "
+                                    "and tristrips");
         }
     }
     if (!has_role(p, PLY_VERTEX)) {
         return mesh_refuse(r, "its PLY header promises no element vertex");
     }
     return has_role(p, PLY_FACE) || has_role(p, PLY_STRIPS) ||
-           mesh_refuse(r, "holds no triangle: its PLY header promises no element face or tristrips");
+           mesh_refuse(r,
+                       "holds no triangle: its PLY header promises no element face or tristrips");
 }
 
 bool ply_read_header(mesh_reader *r, ply *p)

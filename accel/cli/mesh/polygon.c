@@ -149,8 +149,8 @@ static bool between(const mesh_cutter *c, uint32_t at, uint32_t right, uint32_t 
 /* A corner r at the place of a corner of the triangle: do the polygon's sides at r enter it? */
 static bool enters(const mesh_cutter *c, uint32_t at, uint32_t right, uint32_t left, uint32_t r)
 {
-    return same_place(c, at, r) && (between(c, at, right, left, c->next[r]) ||
-                                    between(c, at, right, left, c->previous[r]));
+    return same_place(c, at, r) &&
+           (between(c, at, right, left, c->next[r]) || between(c, at, right, left, c->previous[r]));
 }
 
 /* Does corner r keep the triangle p, i, q from being an ear? */

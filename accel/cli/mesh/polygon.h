@@ -2,8 +2,8 @@
  *
  * Cuts a polygon into triangles between its corners, n - 2 of them whatever it looks like.
  *
- * A convex one becomes a fan from its first corner. Another one loses ears (Meisters, "Polygons have
- * ears", 1975), a corner whose triangle holds no other corner; linear time per ear, so that n
+ * A convex one becomes a fan from its first corner. Another one loses ears (Meisters, "Polygons
+ * have ears", 1975), a corner whose triangle holds no other corner; linear time per ear, so that n
  * corners take at most about n^2 steps for simple polygons. It is looked at along the axis that its
  * normal by Newell's method (Sutherland, Sproull and Schumacker 1974) is nearest to: one that is
  * plane is cut rightly, one that crosses itself somehow, which is counted.

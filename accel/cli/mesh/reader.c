@@ -35,8 +35,7 @@ bool mesh_refuse_line(mesh_reader *r, uint64_t line, const char *format, ...)
 bool mesh_refuse_byte(mesh_reader *r, const char *at, const char *format, ...)
 {
     char where[40];
-    snprintf(where, sizeof where, ", byte %llu",
-             (unsigned long long)(at - r->source->bytes) + 1);
+    snprintf(where, sizeof where, ", byte %llu", (unsigned long long)(at - r->source->bytes) + 1);
     va_list arguments;
     va_start(arguments, format);
     refuse(r, where, format, arguments);
@@ -97,9 +96,8 @@ bool mesh_indices_add(mesh_indices *indices, uint32_t item)
 {
     if (indices->count == indices->room) {
         const size_t room = 2 * indices->room + 16;
-        uint32_t *items = indices->count >= UINT32_MAX - 1
-                              ? NULL
-                              : realloc(indices->items, room * sizeof *items);
+        uint32_t *items =
+            indices->count >= UINT32_MAX - 1 ? NULL : realloc(indices->items, room * sizeof *items);
         if (items == NULL) {
             return false;
         }
@@ -139,8 +137,9 @@ static bool cut(mesh_reader *r, const uint32_t *corners, uint32_t count, size_t 
     }
     return r->cutter.work <= r->cutter.most_work
                ? mesh_refuse_memory(r)
-               : mesh_refuse(r, "its concave faces have too many corners, one of them %lu: cutting "
-                                "them into triangles takes too long",
+               : mesh_refuse(r,
+                             "its concave faces have too many corners, one of them %lu: cutting "
+                             "them into triangles takes too long",
                              (unsigned long)count);
 }
 

@@ -13,8 +13,8 @@
 
 /* A face whose corners were not all there when it was read: it is cut again at the end. */
 typedef struct mesh_late {
-    size_t triangle;        /* the first of its triangles */
-    size_t corner;          /* the first of its corners in mesh_reader.late_corners */
+    size_t triangle; /* the first of its triangles */
+    size_t corner;   /* the first of its corners in mesh_reader.late_corners */
     uint32_t corner_count;
 } mesh_late;
 
@@ -29,11 +29,11 @@ typedef struct mesh_reader {
     const accel_mesh_source *source;
     accel_loaded *out;
     accel_error *error;
-    mesh_text text;         /* of text formats */
-    accel_growing mesh;     /* vertices and triangles of the geometry under way */
-    mesh_indices face;      /* corners of the face under way */
-    mesh_cutter cutter;     /* for faces of more than three */
-    mesh_late *late;        /* `late_count` of them */
+    mesh_text text;     /* of text formats */
+    accel_growing mesh; /* vertices and triangles of the geometry under way */
+    mesh_indices face;  /* corners of the face under way */
+    mesh_cutter cutter; /* for faces of more than three */
+    mesh_late *late;    /* `late_count` of them */
     size_t late_count, late_room;
     mesh_indices late_corners;
     uint64_t largest;       /* corner plus one of all faces so far */
@@ -87,8 +87,8 @@ static inline void mesh_add_triangle(mesh_reader *r, const uint32_t corners[3], 
     accel_grow_triangle(&r->mesh, corners[0], corners[1], corners[2]);
 }
 
-/* Makes triangles of the corners in r->face, and empties it. A face of one or two is counted as left
- * out. False: refused. */
+/* Makes triangles of the corners in r->face, and empties it. A face of one or two is counted as
+ * left out. False: refused. */
 bool mesh_add_face(mesh_reader *r, uint64_t place);
 
 /* After the last vertex: cuts the faces that came before their corners. The largest corner must

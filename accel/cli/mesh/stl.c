@@ -175,8 +175,9 @@ static bool read_binary(mesh_reader *r)
     const uint64_t count = size < HEADER ? 0 : mesh_bytes32(at - 4, false);
     const uint64_t there = size < HEADER ? 0 : (size - HEADER) / FACET;
     if (size < HEADER || count > there) {
-        return mesh_refuse(r, "its STL header promises %llu triangles, but the file has %llu bytes, "
-                              "which hold %llu, and is no text of 'solid', 'facet' and so on",
+        return mesh_refuse(r,
+                           "its STL header promises %llu triangles, but the file has %llu bytes, "
+                           "which hold %llu, and is no text of 'solid', 'facet' and so on",
                            (unsigned long long)count, (unsigned long long)size,
                            (unsigned long long)there);
     }

@@ -2,10 +2,10 @@
  *
  * Words, numbers and lines of text formats. A line ends with LF, CR LF or CR.
  *
- * A number is [+-] digits [. digits] [e [+-] digits] with a digit on one side of the point at least:
- * no hex, no inf, no nan. It becomes the nearest double: up to 2^53 and 10^22 by one exact product
- * or quotient (Clinger, "How to read floating point numbers accurately", 1990), else by strtod in
- * the C locale.
+ * A number is [+-] digits [. digits] [e [+-] digits] with a digit on one side of the point at
+ * least: no hex, no inf, no nan. It becomes the nearest double: up to 2^53 and 10^22 by one exact
+ * product or quotient (Clinger, "How to read floating point numbers accurately", 1990), else by
+ * strtod in the C locale.
  */
 #ifndef ACCEL_CLI_MESH_TEXT_H
 #define ACCEL_CLI_MESH_TEXT_H
@@ -36,8 +36,9 @@ static inline bool mesh_is(char c, unsigned char classes)
     return (mesh_classes[(unsigned char)c] & classes) != 0;
 }
 
-/* Does a backslash at `at` join lines? It must be the last on its line, blanks apart, and apart from
- * a word before it or from one behind it: otherwise readers differ on whether these are one. */
+/* Does a backslash at `at` join lines? It must be the last on its line, blanks apart, and apart
+ * from a word before it or from one behind it: otherwise readers differ on whether these are one.
+ */
 bool mesh_joins(const mesh_text *text, const char *at);
 
 /* Skips blanks that are not simply blanks: comments and joined lines. */
