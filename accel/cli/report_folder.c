@@ -115,21 +115,15 @@ static const char *find_place(accel_folder *folder, char text[MOST_TEXT])
         return strerror(ENAMETOOLONG);
     }
     snprintf(path, sizeof path, "%.*s", (int)length, folder->name);
-    const char *trouble = accel_place_find(&folder->place, path);
-    if (folder->place.descriptor >= 0) {
-        close(folder->place.descriptor);
-    }
-    if (trouble != NULL) {
-        return trouble;
-    }
-    switch (folder->place.kind) {
-    case ACCEL_PLACE_NEW:
-        return NULL;
-    case ACCEL_PLACE_FOLDER:
-        return why_not(folder->place.path, "", text);
-    default:
+    struct stat status;
+    if (strcmp(path, "-") == 0 || (stat(path, &status) == 0 && !S_ISDIR(status.st_mode))) {
         return "it is a file, not a folder";
     }
+    const char *trouble = accel_place_find(&folder->place, path);
+    if (trouble == NULL && folder->place.kind == ACCEL_PLACE_FOLDER) {
+        trouble = why_not(folder->place.path, "", text);
+    }
+    return trouble;
 }
 
 /* Signals wait, so that none comes between the folder and its watch. */

@@ -131,8 +131,9 @@ no_temporary
 
 # ----------------------------------------------------------------------------- signals ----
 
-# To say a signal's name to the shell, and that no core is left.
+# No core is left, and no sanitizer takes a signal for itself.
 ulimit -c 0
+export {A,T,M,UB}SAN_OPTIONS=handle_segv=0:handle_sigbus=0:handle_sigfpe=0:handle_abort=0:handle_sigill=0
 # start TARGET: a long run in the background, of which the temporary file is there already.
 start() {
     env --default-signal=HUP,INT,QUIT "$accel" trace teapots -o "$1" --size 3000x3000 -t 1 -q &

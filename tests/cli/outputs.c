@@ -526,6 +526,11 @@ static void a_report_takes_nothing_of_the_users(void **state)
     assert_int_equal(after.st_mode & 07777, 0600);
     assert_int_equal(lstat("link", &after), 0);
     assert_true(S_ISLNK(after.st_mode) && holds("mine", "me\n"));
+    /* a link to nothing is filled */
+    assert_int_equal(symlink("made", "dangling"), 0);
+    assert_true(write_report("dangling", 'N', 1, &error));
+    assert_true(made_by("made/index.html", 'N') && lstat("dangling", &after) == 0);
+    assert_true(S_ISLNK(after.st_mode));
 }
 
 /* What a report has written and removed again belongs to the user if it is there later. */

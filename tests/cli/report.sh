@@ -127,14 +127,17 @@ expect 0 report -o page/ --minutes 0 --only exact --quiet
 expect 2 report -o page --minutes 0.1 --only exact --quiet
 grep -q "holds 'late.txt'" err && [ "$(cat page/late.txt)" = late ] || fail "a file of the user's is gone"
 
-# What could not be moved into place at the end is refused at the beginning.
-mkdir real && ln -s real link
-complains "symbolic link" report -o link
-complains "symbolic link" report -o link/
-(cd real && complains "give the folder a name" report -o . && [ "$failures" = 0 ]) ||
-    fail "the working folder is not refused"
-complains "give the folder a name" report -o real/..
-complains "file system is mounted there" report -o /proc
+# The folder that is there stays, with its mode; links are in outputs.c.
+mkdir -m 700 real
+(cd real && "$accel" report -o . --minutes 0 --only exact --quiet >../out 2>../err) ||
+    fail "no report in the working folder: $(cat err)"
+[ "$(stat -c %a real)" = 700 ] && [ "$(ls real | xargs)" = \
+    "exact-build.svg exact-far.svg exact.csv exact.svg index.html" ] ||
+    fail "the folder of mode $(stat -c %a real) holds $(ls real | xargs)"
+complains "holds no report" report -o real/..
+complains "holds no report" report -o /proc
+mkfifo pipe && complains "it is a file, not a folder" report -o pipe
+complains "it is a file, not a folder" report -o -
 complains "the name is empty" report -o ""
 [ "$(find . -maxdepth 1 -name 'page*' | wc -l)" = 1 ] || fail "a temporary folder is left"
 finish
