@@ -14,11 +14,14 @@
  * povaccelbox.cpp finds hold all hits.
  *******************************************************************************/
 
+#include <algorithm>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
+#include <iterator>
 
 #include <boost/format.hpp>
+#include <boost/thread.hpp>
 
 // frame.h must always be the first POV file included (pulls in platform config)
 #include "backend/frame.h"
@@ -64,8 +67,9 @@ Accelerator::Accelerator(POVMS_Object& options) :
 	mentioned(options.Exist(kPOVAttrib_Accelerator) || options.Exist(kPOVAttrib_AcceleratorVerify)),
 	verify(options.TryGetBool(kPOVAttrib_AcceleratorVerify, false)),
 	lightsLeftOut(0),
-	structure(NULL),
-	sceneData(NULL)
+	sceneData(NULL),
+	farIsBuilt(false),
+	farQueries(0)
 {
 	const char *environment = getenv("POV_ACCELERATOR");
 
@@ -74,7 +78,8 @@ Accelerator::Accelerator(POVMS_Object& options) :
 
 Accelerator::~Accelerator()
 {
-	accel_free(structure);
+	accel_free(nearPart.structure);
+	accel_free(farPart.structure);
 }
 
 MessageFactory Accelerator::Messages(const SceneData& scene)
@@ -219,22 +224,14 @@ static vector<accel_ray> Camera_Pilot(const Camera& camera)
 	return pilot;
 }
 
-void Accelerator::Build(const SceneData& scene, Task& task)
+/// The structure over all objects, for rays that begin within reach of the part.
+void Accelerator::BuildPart(Part& part, const accel_hooks *hooks, accel_error& error) const
 {
+	const vector<accel_box> boxes = Find_Boxes(objects, part.reach);
 	double parts = 0.0;
 
-	for(vector<ObjectPtr>::const_iterator i = scene.objects.begin(); i != scene.objects.end(); i++)
-	{
-		if(Never_Hit(*i) == false)
-		{
-			objects.push_back(*i);
-			parts += Count_Parts(*i);
-		}
-	}
-	lightsLeftOut = scene.objects.size() - objects.size();
-	sceneData = &scene;
-
-	boxes = Find_Boxes(scene, objects);
+	for(vector<ObjectPtr>::const_iterator i = objects.begin(); i != objects.end(); i++)
+		parts += Count_Parts(*i);
 
 	accel_geometry geometry = accel_geometry();
 	geometry.type = ACCEL_OBJECTS;
@@ -245,22 +242,70 @@ void Accelerator::Build(const SceneData& scene, Task& task)
 	geometry.objects.user = NULL;
 	geometry.objects.cost = 100.0 * parts / max(1.0, double(objects.size())); // a test of a sphere or box: about 100 ns
 
+	const accel_scene library_scene = { &geometry, 1 };
+
+	error.status = accel_build(&part.structure, &library_scene, config.c_str(), hooks, &error);
+	if(verify)
+		part.boxes = boxes;
+}
+
+void Accelerator::Build(const SceneData& scene, Task& task)
+{
+	for(vector<ObjectPtr>::const_iterator i = scene.objects.begin(); i != scene.objects.end(); i++)
+	{
+		if(Never_Hit(*i) == false)
+			objects.push_back(*i);
+	}
+	lightsLeftOut = scene.objects.size() - objects.size();
+	sceneData = &scene;
+	Find_Reaches(scene, objects, nearPart.reach, farPart.reach);
+	beyondBoxes = Objects_Beyond_Boxes(objects, nearPart.reach);
+
 	const vector<accel_ray> pilot = Camera_Pilot(scene.parsedCamera);
 	AccelProgress progress(scene, task);
-	const accel_scene library_scene = { &geometry, 1 };
 	accel_hooks hooks = accel_hooks();
 	hooks.user = &progress;
 	hooks.progress = &AccelProgress::Report;
 	hooks.pilot = pilot.data();
 	hooks.pilot_count = pilot.size();
 	accel_error error;
-	accel_status status = accel_build(&structure, &library_scene, config.c_str(), &hooks, &error);
 
+	BuildPart(nearPart, &hooks, error);
 	progress.RethrowIfStopped();
-	if(status != ACCEL_OK)
+	if(error.status != ACCEL_OK)
 		Throw_Library_Error(error);
-	if(verify == false)
-		vector<accel_box>().swap(boxes);
+}
+
+static boost::mutex farMutex;
+
+/// Built when the first ray comes from that far: most scenes have none.
+const Accelerator::Part& Accelerator::FarPart() const
+{
+	if(farIsBuilt == false)
+	{
+		boost::mutex::scoped_lock lock(farMutex);
+
+		if(farIsBuilt == false)
+		{
+			accel_error error;
+
+			BuildPart(farPart, NULL, error);
+			if(error.status != ACCEL_OK)
+				Throw_Library_Error(error);
+			farIsBuilt = true;
+		}
+	}
+
+	return farPart;
+}
+
+/// The part whose boxes hold the hits of a ray from there; NULL if there is none.
+const Accelerator::Part *Accelerator::ChoosePart(const VECTOR origin) const
+{
+	if(nearPart.reach.Holds(origin))
+		return &nearPart;
+
+	return farPart.reach.Holds(origin) ? &FarPart() : NULL;
 }
 
 
@@ -289,9 +334,11 @@ bool Accelerator::FindIntersection(Trace& trace, TraceThreadData *thread, Inters
 bool Accelerator::Find(Trace& trace, AccelQuery& query) const
 {
 	const DBL limit = query.best.Depth;
+	const Part *part = ChoosePart(query.ray.Origin);
 	accel_query counters = { &query, 0, 0, 0, 0 };
 	accel_hit hit;
 	accel_ray ray;
+	bool found = false;
 
 	hit.prim = ACCEL_NONE;
 	Assign_Vector(ray.org, query.ray.Origin);
@@ -301,12 +348,18 @@ bool Accelerator::Find(Trace& trace, AccelQuery& query) const
 	ray.tmax = limit;
 	ray.skip.geom = ray.skip.prim = ACCEL_NONE;
 
-	bool found = accel_closest(structure, &ray, &hit, &counters);
+	if(part != NULL)
+		found = accel_closest(part->structure, &ray, &hit, &counters);
+	else
+		counters.refused = 1;
+
 	RenderStatistics& stats = query.thread->Stats();
 
 	// The library refuses a ray that is not finite, but POV-Ray's leaf tests may still answer it.
 	if(counters.refused > 0)
 		found = Search_Linearly(trace, query, query.best, hit.prim);
+	if(part == &farPart)
+		farQueries.fetch_add(1, std::memory_order_relaxed);
 
 	stats[Accel_Queries]++;
 	if(found)
@@ -320,18 +373,16 @@ bool Accelerator::Find(Trace& trace, AccelQuery& query) const
 	if(verify == false)
 		stats[Accel_Hits_Outside] += counters.outside;
 	else // counts them itself, and more of them
-		Verify(trace, query, limit, found, hit.prim);
+		Verify(trace, query, (counters.refused > 0) ? NULL : part, limit, found, hit.prim);
 
 	return found;
 }
 
 
 /// The library names the objects whose boxes hold a point, in the order of the scene.
-static bool Test_Point_In_Object(void *user, accel_id id)
+static bool Note_Object(void *user, accel_id id)
 {
-	AccelPointQuery& query = *reinterpret_cast<AccelPointQuery *>(user);
-
-	query.Test(query.objects[id.prim]);
+	reinterpret_cast<vector<uint32_t> *>(user)->push_back(id.prim);
 	return true;
 }
 
@@ -340,10 +391,17 @@ void Accelerator::FindContainingInteriors(const VECTOR point, TraceThreadData *t
 	AccelPointQuery query(objects, point, thread);
 	accel_query counters = { NULL, 0, 0, 0, 0 };
 	RenderStatistics& stats = thread->Stats();
+	vector<uint32_t> named, candidates;
 
-	accel_point(structure, point, Test_Point_In_Object, &query, &counters);
+	accel_point(nearPart.structure, point, Note_Object, &named, &counters);
+	std::set_union(named.begin(), named.end(), beyondBoxes.begin(), beyondBoxes.end(), std::back_inserter(candidates));
 	if(counters.refused > 0)
 		query.SearchLinearly();
+	else
+	{
+		for(vector<uint32_t>::const_iterator i = candidates.begin(); i != candidates.end(); i++)
+			query.Test(objects[*i]);
+	}
 
 	stats[Accel_Queries]++;
 	if(query.found.empty() == false)
@@ -389,11 +447,11 @@ static std::string Describe_Structure(const accel_info& info, size_t lightsLeftO
 
 void Accelerator::GetStatistics(POVMS_Object& parserStats) const
 {
-	if(structure != NULL)
+	if(nearPart.structure != NULL)
 	{
 		accel_info info;
 
-		accel_describe(structure, &info);
+		accel_describe(nearPart.structure, &info);
 		parserStats.SetString(kPOVAttrib_AcceleratorText, Describe_Structure(info, lightsLeftOut).c_str());
 	}
 	else if(chosen)
@@ -416,6 +474,17 @@ static std::string Describe_Built(const accel *structure)
 	           ((info.lazy_bytes + 1023) / 1024));
 }
 
+/// What was built for rays that begin far from the camera.
+static std::string Describe_Far(const accel *structure, POV_ULONG queries, DBL radius)
+{
+	accel_info info;
+
+	accel_describe(structure, &info);
+
+	return str(format("Accelerator far:      %13d   (rays from over %.2g away, for which %d KiB were built in %.3f s)\n") %
+	           queries % radius % ((info.bytes + 1023) / 1024) % info.seconds);
+}
+
 void Accelerator::GetStatistics(POVMS_Object& renderStats, const RenderStatistics& stats) const
 {
 	const POV_ULONG outside = stats[Accel_Hits_Outside];
@@ -424,12 +493,14 @@ void Accelerator::GetStatistics(POVMS_Object& renderStats, const RenderStatistic
 	const POV_ULONG different = stats[Accel_Queries_Different];
 	std::string text;
 
-	if(structure != NULL)
-		text += Describe_Built(structure);
+	if(nearPart.structure != NULL)
+		text += Describe_Built(nearPart.structure);
+	if(farIsBuilt)
+		text += Describe_Far(farPart.structure, farQueries, nearPart.reach.radius);
 	if(verified > 0)
 		text += str(format("Accelerator verified: %13d   Differences:     %15d\n") % verified % different);
 	if(refused > 0)
-		text += str(format("Accelerator refused:  %13d   (rays that are not finite; searched linearly)\n") % refused);
+		text += str(format("Accelerator refused:  %13d   (rays that are not finite, or begin too far away; searched linearly)\n") % refused);
 	if(verified > 0)
 		text += str(format("Accelerator outside:  %13d   (of all hits of all objects: outside the box of their object)\n") % outside);
 	else if(outside > 0)

@@ -16,6 +16,7 @@
 #ifndef POVRAY_BACKEND_POVACCEL_H
 #define POVRAY_BACKEND_POVACCEL_H
 
+#include <atomic>
 #include <set>
 #include <string>
 #include <vector>
@@ -24,6 +25,7 @@
 #include "backend/frame.h"
 #include "backend/support/statistics.h"
 #include "backend/accel/accel.h"
+#include "backend/accel/povaccelframe.h"
 
 namespace pov
 {
@@ -79,21 +81,40 @@ class Accelerator
 		vector<ObjectPtr> objects;
 		/// number of light sources left out, as no ray can hit them
 		size_t lightsLeftOut;
-		/// the library's structure over objects; NULL until built
-		accel *structure;
+		/// objects that points outside their box may be in, in the order of the scene
+		vector<uint32_t> beyondBoxes;
 		/// for messages from the render threads, which outlive no scene
 		const SceneData *sceneData;
-		/// the boxes of objects, kept for Accelerator_Verify
-		vector<accel_box> boxes;
+
+		/// The library's structure over objects, with boxes for rays that begin within its reach.
+		struct Part
+		{
+			AccelReach reach;
+			accel *structure; // NULL until built
+			vector<accel_box> boxes; // kept for Accelerator_Verify alone
+
+			Part() : structure(NULL) { reach.radius = -1.0; }
+		};
+
+		/// for most rays
+		Part nearPart;
+		/// for rays from farther away; built when the first one comes
+		mutable Part farPart;
+		mutable std::atomic<bool> farIsBuilt;
+		mutable std::atomic<POV_ULONG> farQueries;
+
 		/// objects with a hit outside their box that were named in a message
 		mutable std::set<uint32_t> namedOutside;
 
 		class BoxCheck;
 
+		void BuildPart(Part& part, const accel_hooks *hooks, accel_error& error) const;
+		const Part& FarPart() const;
+		const Part *ChoosePart(const VECTOR origin) const;
 		bool Find(Trace& trace, AccelQuery& query) const;
-		void Verify(Trace& trace, const AccelQuery& query, DBL limit, bool found, uint32_t index) const;
+		void Verify(Trace& trace, const AccelQuery& query, const Part *part, DBL limit, bool found, uint32_t index) const;
 		void VerifyInteriors(const VECTOR point, TraceThreadData *thread, const vector<ObjectPtr>& found) const;
-		void ReportOutside(const AccelQuery& query, uint32_t index, DBL depth) const;
+		void ReportOutside(const AccelQuery& query, const accel_box& box, uint32_t index, DBL depth) const;
 		void ReportDifference(TraceThreadData *thread, const std::string& query, const std::string& ours, const std::string& linear) const;
 		std::string DescribeObject(uint32_t index) const;
 		std::string Describe(bool found, uint32_t index, const Intersection& isect) const;

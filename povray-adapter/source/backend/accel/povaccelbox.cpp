@@ -5,23 +5,47 @@
  *
  * This module finds the boxes of POV-Ray's objects for the accel library: boxes
  * that hold every point where the leaf test of an object may report a hit.
- * POV-Ray's own BBox does not always: it is in float, rounded to nearest, and for
- * some objects it says nothing about the hits. It is a derivative work of
- * POV-Ray 3.7.0.10; see LICENSE.
+ * POV-Ray's own BBox is not asked: it is in float, and bounded_by, clipped_by,
+ * inverse and some shapes leave it wrong or needlessly infinite. The boxes are
+ * composed of those of single shapes, which povaccelshape.cpp finds.
+ *
+ * Two things are kept apart: where the *hits* of an object may be, and where its
+ * *inside* may be, the points for which Inside_Object is true. The inside of an
+ * inverted sphere is unbounded, its hits are not. Both regions may be too large,
+ * never too small; what is not known is the whole space. The rules:
+ *
+ * - Union and merge: hits are hits of a part. Inside is inside of some part.
+ * - Intersection and difference: a hit is one of a part and inside all others.
+ *   Inside is inside of all parts. So where a part has a bounded inside, no other
+ *   needs a bounded one: parts that are subtracted are inverted and have none.
+ * - `inverse` of a CSG object turns it around (CSG::Invert, Morph): a union becomes
+ *   an intersection of inverted parts, and the other way around. What is met here
+ *   is the result, so its flag INVERTED_FLAG says nothing more. That of a single
+ *   shape makes its inside unbounded (a plane or quadric turns its signs instead).
+ * - clipped_by: hits and inside are also inside all clips. It is the inside of a clip
+ *   that counts: a clip is a cut-off half of space if it is a disc, and everything
+ *   if it is inverted. Patches of the type bicubic_patch ignore clips, and light
+ *   sources leave them to their looks_like.
+ * - bounded_by, kept or removed: the ray has to meet the bound, but the hit may be
+ *   anywhere along it. It says nothing.
+ * - A light source has hits and inside of its looks_like, without that one's clips
+ *   for the inside.
+ *
+ * It is a derivative work of POV-Ray 3.7.0.10; see LICENSE.
  *******************************************************************************/
+
+#include <algorithm>
 
 // frame.h must always be the first POV file included (pulls in platform config)
 #include "backend/frame.h"
 
 #include "backend/accel/povaccelbox.h"
+#include "backend/accel/povaccelshape.h"
+#include "backend/bounding/bbox.h"
 #include "backend/scene/objects.h"
 #include "backend/scene/scene.h"
+#include "backend/shape/bezier.h"
 #include "backend/shape/csg.h"
-#include "backend/shape/discs.h"
-#include "backend/shape/hfield.h"
-#include "backend/shape/planes.h"
-#include "backend/shape/poly.h"
-#include "backend/shape/sphsweep.h"
 
 // this must be the last file included
 #include "base/povdebug.h"
@@ -29,203 +53,254 @@
 namespace pov
 {
 
-static bool Has_Inverted_Clip(const ObjectBase *object)
-{
-	for(vector<ObjectPtr>::const_iterator clip = object->Clip.begin(); clip != object->Clip.end(); clip++)
-	{
-		if(Test_Flag(*clip, INVERTED_FLAG))
-			return true;
-	}
+static void Find_Bounds(const ObjectBase *object, const AccelReach& reach, AccelBounds& bounds);
 
-	return false;
-}
-
-/*
- * Is the BBox of an object known to hold all points inside it? Not for a disc
- * or height_field: what is behind the one or below the other counts as inside.
- */
-static bool Box_Holds_Inside(const ObjectBase *object)
-{
-	if((dynamic_cast<const Disc *>(object) != NULL) || (dynamic_cast<const HField *>(object) != NULL))
-		return false;
-
-	const CompoundObject *compound = dynamic_cast<const CompoundObject *>(object);
-
-	if(compound != NULL)
-	{
-		for(vector<ObjectPtr>::const_iterator child = compound->children.begin(); child != compound->children.end(); child++)
-		{
-			if(Box_Holds_Inside(*child) == false)
-				return false;
-		}
-	}
-
-	return true;
-}
-
-static bool Box_Holds_Hits(const ObjectBase *object);
-
-/*
- * The box of an intersection is the intersection of the boxes of its parts, but
- * for those that are inverted or height_fields; a hit on one part is inside all
- * others. The box of a union holds those of its parts.
- */
-static bool Box_Of_Parts_Holds_Hits(const CompoundObject *compound)
-{
-	bool intersection = (dynamic_cast<const CSGIntersection *>(compound) != NULL);
-
-	for(vector<ObjectPtr>::const_iterator child = compound->children.begin(); child != compound->children.end(); child++)
-	{
-		if(Box_Holds_Hits(*child) == false)
-			return false;
-		if(intersection && !Test_Flag(*child, INVERTED_FLAG) && (dynamic_cast<const HField *>(*child) == NULL) &&
-		   (Box_Holds_Inside(*child) == false))
-			return false;
-	}
-
-	return true;
-}
-
-/*
- * Is the BBox of an object known to hold all its hits? It is not
- * - with a bounded_by: the box may be that of the bounding object, which only
- *   has to be hit by the ray, while the surface may be anywhere along it;
- * - for a plane or poly whose clipping object is inverted: it takes the box of
- *   its first clipping object, inverted or not;
- * - for a sphere_sweep: the box is that of the modelling spheres, which a
- *   spline may leave;
- * - for an inverted CSG object: inverting turns its operation around, but
- *   leaves the box alone;
- * - if it is not for a part of a CSG object.
- */
-static bool Box_Holds_Hits(const ObjectBase *object)
-{
-	if(object->Bound.empty() == false)
-		return false;
-	if((dynamic_cast<const Plane *>(object) != NULL) || (dynamic_cast<const Poly *>(object) != NULL))
-		return (Has_Inverted_Clip(object) == false);
-	if(dynamic_cast<const SphereSweep *>(object) != NULL)
-		return false;
-
-	const CompoundObject *compound = dynamic_cast<const CompoundObject *>(object);
-
-	return (compound == NULL) || (!Test_Flag(object, INVERTED_FLAG) && Box_Of_Parts_Holds_Hits(compound));
-}
-
-/// The box of an object as POV-Ray has it. With looks_like, a light source has the hits of that object.
-static const ObjectBase *Boxed_Object(const ObjectBase *object)
+/// No test ever finds these.
+static bool Is_Dark_Light(const ObjectBase *object)
 {
 	const LightSource *light = dynamic_cast<const LightSource *>(object);
 
-	return (light != NULL) ? light->children[0] : object;
+	return (light != NULL) && light->children.empty();
 }
 
-/// False if the box of an object is infinite or not known.
-static bool Get_Box(const ObjectBase *object, accel_box& box)
+static void Find_Bounds_Of_Parts(const CompoundObject& compound, const AccelReach& reach, vector<AccelBounds>& parts, VECTOR slack)
 {
-	bool known = !Test_Flag(object, INFINITE_FLAG) && Box_Holds_Hits(object);
-
-	for(int axis = X; axis <= Z; axis++)
+	Make_Vector(slack, 0.0, 0.0, 0.0);
+	parts.reserve(compound.children.size());
+	for(vector<ObjectPtr>::const_iterator child = compound.children.begin(); child != compound.children.end(); child++)
 	{
-		box.lo[axis] = object->BBox.Lower_Left[axis];
-		box.hi[axis] = (DBL)object->BBox.Lower_Left[axis] + (DBL)object->BBox.Lengths[axis];
-		known = known && (box.lo[axis] <= box.hi[axis]);
-	}
-
-	return known;
-}
-
-/*
- * Grows a box by what POV-Ray may be wrong, for rays that begin at most
- * `distance` away. It covers
- * (a) the rounding of the box to float: at most 2^-24 of the largest coordinate
- *     for the corner, and 2^-23 for the length, which may be twice that
- *     coordinate;
- * (b) the error of the solvers of a quadratic: its coefficients grow as
- *     distance^2, its discriminant is wrong by some 8 * 2^-53 of that, and a
- *     root by this over the chord, which is about the extent where the ray
- *     enters the box. 2^-48 leaves a factor of 4. More than the extent is not
- *     granted: a solver that is wrong by so much finds the surface by chance;
- * (c) other solvers: 1e-4 of the extent is an allowance, not a bound; it
- *     enlarges the area of a box by 0.04 %.
- * Hits before their box are counted and reported.
- */
-static void Grow_Box(accel_box& box, DBL distance)
-{
-	DBL extent = 0.0;
-	DBL coordinate = 0.0;
-
-	for(int axis = X; axis <= Z; axis++)
-	{
-		extent = max(extent, box.hi[axis] - box.lo[axis]);
-		coordinate = max(coordinate, max(fabs(box.lo[axis]), fabs(box.hi[axis])));
-	}
-
-	DBL solver = (extent > 0.0) ? min(ldexp(distance * distance, -48) / extent, extent) : 0.0;
-	DBL padding = ldexp(coordinate, -22) + solver + 1.0e-4 * extent;
-
-	for(int axis = X; axis <= Z; axis++)
-	{
-		box.lo[axis] -= padding;
-		box.hi[axis] += padding;
-	}
-}
-
-static void Include_Point(accel_box& box, const VECTOR point)
-{
-	for(int axis = X; axis <= Z; axis++)
-	{
-		box.lo[axis] = min(box.lo[axis], point[axis]);
-		box.hi[axis] = max(box.hi[axis], point[axis]);
-	}
-}
-
-/// The longest way from where rays begin, the camera, finite objects and for photons the lights, to a finite object.
-static DBL Longest_Way(const SceneData& scene, const vector<accel_box>& boxes)
-{
-	accel_box all = { { HUGE_VAL, HUGE_VAL, HUGE_VAL }, { -HUGE_VAL, -HUGE_VAL, -HUGE_VAL } };
-	DBL length = 0.0;
-
-	for(vector<accel_box>::const_iterator box = boxes.begin(); box != boxes.end(); box++)
-	{
-		if(box->hi[X] < HUGE_VAL)
+		if(Is_Dark_Light(*child) == false)
 		{
-			Include_Point(all, box->lo);
-			Include_Point(all, box->hi);
+			parts.push_back(AccelBounds());
+			Find_Bounds(*child, reach, parts.back());
+			for(int axis = X; axis <= Z; axis++)
+				slack[axis] = max(slack[axis], parts.back().slack[axis]);
 		}
 	}
-	Include_Point(all, scene.parsedCamera.Location);
-	if(scene.photonSettings.photonsEnabled)
-	{
-		for(vector<LightSource *>::const_iterator light = scene.lightSources.begin(); light != scene.lightSources.end(); light++)
-			Include_Point(all, (*light)->Center);
-	}
-	for(int axis = X; axis <= Z; axis++)
-		length += Sqr(all.hi[axis] - all.lo[axis]);
-
-	return sqrt(length);
 }
 
-vector<accel_box> Find_Boxes(const SceneData& scene, const vector<ObjectPtr>& objects)
+/// Where a part may be tested for holding a point, that point is wrong by `slack`.
+static AccelRegion Inside_As_Tested(const AccelBounds& part, const VECTOR slack, const AccelReach& reach)
 {
-	const accel_box unbounded = { { -HUGE_VAL, -HUGE_VAL, -HUGE_VAL }, { HUGE_VAL, HUGE_VAL, HUGE_VAL } };
+	AccelRegion region(part.inside);
+	DBL magnitude = MAX_DISTANCE + reach.radius;
+
+	for(int axis = X; axis <= Z; axis++)
+		magnitude += fabs(reach.center[axis]);
+	region.Grow(slack, magnitude);
+
+	return region;
+}
+
+static void Bound_Union(const CompoundObject& compound, const AccelReach& reach, AccelBounds& bounds)
+{
+	vector<AccelBounds> parts;
+	accel_box hits = Empty_Box(), inside = Empty_Box();
+
+	Find_Bounds_Of_Parts(compound, reach, parts, bounds.slack);
+	bounds.solid = true;
+	for(vector<AccelBounds>::const_iterator part = parts.begin(); part != parts.end(); part++)
+	{
+		Include_Box(hits, part->hits.Box());
+		Include_Box(inside, part->inside.Box());
+		bounds.solid = bounds.solid && part->solid;
+	}
+	bounds.hits = AccelRegion(hits);
+	bounds.inside = AccelRegion(inside);
+}
+
+/// Where all parts but one are inside.
+static AccelRegion Inside_Others(const vector<AccelBounds>& parts, vector<AccelBounds>::const_iterator one, const VECTOR slack, const AccelReach& reach)
+{
+	AccelRegion region;
+
+	for(vector<AccelBounds>::const_iterator part = parts.begin(); part != parts.end(); part++)
+	{
+		if(part != one)
+			region.Intersect(Inside_As_Tested(*part, slack, reach));
+	}
+
+	return region;
+}
+
+/// A hit on a part whose hits lie in the region of its inside lies in that of all parts.
+static void Bound_Intersection(const CompoundObject& compound, const AccelReach& reach, AccelBounds& bounds)
+{
+	vector<AccelBounds> parts;
+	accel_box hits = Empty_Box();
+
+	Find_Bounds_Of_Parts(compound, reach, parts, bounds.slack);
+	bounds.solid = true;
+	bounds.inside = Inside_Others(parts, parts.end(), bounds.slack, reach);
+
+	const accel_box inside = bounds.inside.Box();
+
+	for(vector<AccelBounds>::const_iterator part = parts.begin(); part != parts.end(); part++)
+	{
+		AccelRegion region(part->hits);
+
+		if(part->solid)
+			Intersect_Box(region.box, inside);
+		else
+			region.Intersect(Inside_Others(parts, part, bounds.slack, reach));
+		Include_Box(hits, region.Box());
+		bounds.solid = bounds.solid && part->solid;
+	}
+	bounds.hits = AccelRegion(hits);
+}
+
+/// Without the clips of the object itself.
+static void Find_Own_Bounds(const ObjectBase *object, const AccelReach& reach, AccelBounds& bounds)
+{
+	const CompoundObject *compound = dynamic_cast<const CompoundObject *>(object);
+
+	if(compound == NULL)
+		Find_Shape_Bounds(object, reach, bounds);
+	else if(dynamic_cast<const CSGIntersection *>(object) != NULL)
+		Bound_Intersection(*compound, reach, bounds);
+	else if(dynamic_cast<const CSGUnion *>(object) != NULL)
+		Bound_Union(*compound, reach, bounds);
+	else if((dynamic_cast<const LightSource *>(object) != NULL) && !compound->children.empty())
+	{
+		AccelBounds own;
+
+		Find_Bounds(compound->children[0], reach, bounds);
+		Find_Own_Bounds(compound->children[0], reach, own);
+		bounds.inside = own.inside;
+	}
+	else
+		bounds = AccelBounds();
+}
+
+static void Find_Bounds(const ObjectBase *object, const AccelReach& reach, AccelBounds& bounds)
+{
+	const bool clipsHits = (dynamic_cast<const BicubicPatch *>(object) == NULL) && (dynamic_cast<const LightSource *>(object) == NULL);
+
+	Find_Own_Bounds(object, reach, bounds);
+	for(vector<ObjectPtr>::const_iterator clip = object->Clip.begin(); clip != object->Clip.end(); clip++)
+	{
+		AccelBounds clipBounds;
+
+		Find_Bounds(*clip, reach, clipBounds);
+
+		const AccelRegion region = Inside_As_Tested(clipBounds, bounds.slack, reach);
+
+		if(clipsHits)
+			bounds.hits.Intersect(region);
+		bounds.inside.Intersect(region);
+		bounds.solid = bounds.solid && clipsHits;
+	}
+}
+
+vector<accel_box> Find_Boxes(const vector<ObjectPtr>& objects, const AccelReach& reach)
+{
 	vector<accel_box> boxes(objects.size());
 
 	for(size_t i = 0; i < objects.size(); i++)
 	{
-		if(Get_Box(Boxed_Object(objects[i]), boxes[i]) == false)
-			boxes[i] = unbounded;
-	}
+		AccelBounds bounds;
 
-	const DBL distance = Longest_Way(scene, boxes);
-
-	for(size_t i = 0; i < objects.size(); i++)
-	{
-		if(boxes[i].hi[X] < HUGE_VAL)
-			Grow_Box(boxes[i], distance);
+		Find_Bounds(objects[i], reach, bounds);
+		boxes[i] = bounds.hits.Box();
 	}
 
 	return boxes;
+}
+
+/// InitRayContainerState asks BBox before Inside, and leaves clips out.
+vector<uint32_t> Objects_Beyond_Boxes(const vector<ObjectPtr>& objects, const AccelReach& reach)
+{
+	const vector<accel_box> boxes = Find_Boxes(objects, reach);
+	vector<uint32_t> beyond;
+
+	for(size_t i = 0; i < objects.size(); i++)
+	{
+		AccelBounds bounds;
+		VECTOR low, high;
+
+		Find_Own_Bounds(objects[i], reach, bounds);
+		Make_min_max_from_BBox(low, high, objects[i]->BBox);
+
+		accel_box box = Box_Between(low, high);
+
+		for(int axis = X; axis <= Z; axis++)
+		{
+			box.lo[axis] -= ldexp(max(fabs(low[axis]), fabs(high[axis])), -20);
+			box.hi[axis] += ldexp(max(fabs(low[axis]), fabs(high[axis])), -20);
+		}
+		Intersect_Box(box, bounds.inside.Box());
+		if(!Is_Empty(box) && !Box_In_Box(box, boxes[i]))
+			beyond.push_back(i);
+	}
+
+	return beyond;
+}
+
+
+
+/*****************************************************************************
+ *
+ * Where rays begin
+ *
+ *****************************************************************************/
+
+/// Half the largest side of what is neither infinite nor empty, for each object.
+static vector<DBL> Radii(const vector<accel_box>& boxes)
+{
+	vector<DBL> radii;
+
+	for(vector<accel_box>::const_iterator box = boxes.begin(); box != boxes.end(); box++)
+	{
+		if(Is_Finite(*box) && !Is_Empty(*box))
+			radii.push_back(0.5 * max(max(box->hi[X] - box->lo[X], box->hi[Y] - box->lo[Y]), box->hi[Z] - box->lo[Z]));
+	}
+
+	return radii;
+}
+
+/*
+ * Rays begin at the camera, on an object or at a light. Rounding in a leaf test grows
+ * with the square of the distance, against the square of the radius of the shape:
+ * at 2^19 radii it makes the box of a sphere about 2 % larger. So most of the
+ * objects, 19 of 20, set the near cube. The far one holds all bounded objects, and
+ * where there are others, what MAX_DISTANCE lets rays reach; it ends where boxes of
+ * half-spaces do. Rays from outside are not for structures.
+ */
+void Find_Reaches(const SceneData& scene, const vector<ObjectPtr>& objects, AccelReach& nearReach, AccelReach& farReach)
+{
+	const DBL farthest = ldexp(1.0, 27);
+
+	Assign_Vector(nearReach.center, scene.parsedCamera.Location);
+	nearReach.radius = 0.0;
+	farReach = nearReach;
+
+	const vector<accel_box> boxes = Find_Boxes(objects, nearReach);
+	vector<DBL> radii = Radii(boxes);
+
+	if(radii.size() < boxes.size())
+		farReach.radius = ldexp(1.0, 25);
+	for(vector<accel_box>::const_iterator box = boxes.begin(); box != boxes.end(); box++)
+	{
+		for(int axis = X; (axis <= Z) && Is_Finite(*box) && !Is_Empty(*box); axis++)
+		{
+			farReach.radius = max(farReach.radius, 2.0 * fabs(box->lo[axis] - farReach.center[axis]));
+			farReach.radius = max(farReach.radius, 2.0 * fabs(box->hi[axis] - farReach.center[axis]));
+		}
+	}
+	for(vector<LightSource *>::const_iterator light = scene.lightSources.begin(); light != scene.lightSources.end(); light++)
+	{
+		for(int axis = X; (axis <= Z) && scene.photonSettings.photonsEnabled; axis++)
+			farReach.radius = max(farReach.radius, 2.0 * fabs((*light)->Center[axis] - farReach.center[axis]));
+	}
+	farReach.radius = min(farReach.radius, farthest);
+	nearReach.radius = farReach.radius;
+	if(radii.empty() == false)
+	{
+		vector<DBL>::iterator small = radii.begin() + radii.size() / 20;
+
+		std::nth_element(radii.begin(), small, radii.end());
+		nearReach.radius = min(farReach.radius, ldexp(*small, 19));
+	}
 }
 
 }

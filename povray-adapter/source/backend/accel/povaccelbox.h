@@ -15,15 +15,23 @@
 
 #include "backend/frame.h"
 #include "backend/accel/accel.h"
+#include "backend/accel/povaccelframe.h"
 
 namespace pov
 {
 
 class SceneData;
 
-/// The boxes of some objects of a scene, with infinite sides where they are not known.
-/// A light source among them must have a looks_like object.
-vector<accel_box> Find_Boxes(const SceneData& scene, const vector<ObjectPtr>& objects);
+/// Where rays begin that the boxes of a structure are made for. Most begin near the camera, where rounding is small; the far cube
+/// holds all places from which others may.
+void Find_Reaches(const SceneData& scene, const vector<ObjectPtr>& objects, AccelReach& nearReach, AccelReach& farReach);
+
+/// A box for each object that holds all hits of rays that begin within `reach`, with infinite sides where none is known,
+/// and the lower side above the upper one if it has no hits.
+vector<accel_box> Find_Boxes(const vector<ObjectPtr>& objects, const AccelReach& reach);
+
+/// The objects that a point outside their box for this reach may be in, as far as TracePixel::InitRayContainerState tells.
+vector<uint32_t> Objects_Beyond_Boxes(const vector<ObjectPtr>& objects, const AccelReach& reach);
 
 }
 

@@ -73,26 +73,28 @@ static bool Holds_Hit(const accel_box& box, const Ray& ray, DBL depth)
 class Accelerator::BoxCheck : public AccelHitObserver
 {
 	public:
-		BoxCheck(const Accelerator& a, const AccelQuery& q) : accelerator(a), query(q) { }
+		BoxCheck(const Accelerator& a, const AccelQuery& q, const vector<accel_box>& b) : accelerator(a), query(q), boxes(b) { }
 
 		virtual void See(uint32_t index, const Intersection& isect)
 		{
-			if(Holds_Hit(accelerator.boxes[index], query.ray, isect.Depth) == false)
-				accelerator.ReportOutside(query, index, isect.Depth);
+			if(Holds_Hit(boxes[index], query.ray, isect.Depth) == false)
+				accelerator.ReportOutside(query, boxes[index], index, isect.Depth);
 		}
 	private:
 		const Accelerator& accelerator;
 		const AccelQuery& query;
+		const vector<accel_box>& boxes;
 };
 
-void Accelerator::Verify(Trace& trace, const AccelQuery& query, DBL limit, bool found, uint32_t index) const
+/// No boxes were relied on for a query without a part.
+void Accelerator::Verify(Trace& trace, const AccelQuery& query, const Part *part, DBL limit, bool found, uint32_t index) const
 {
 	Intersection linear;
 	uint32_t linearIndex = ACCEL_NONE;
-	BoxCheck check(*this, query);
+	BoxCheck check(*this, query, (part != NULL) ? part->boxes : nearPart.boxes);
 
 	linear.Depth = limit;
-	bool linearFound = Search_Linearly(trace, query, linear, linearIndex, &check);
+	bool linearFound = Search_Linearly(trace, query, linear, linearIndex, (part != NULL) ? &check : NULL);
 
 	query.thread->Stats()[Accel_Queries_Verified]++;
 	if((found == linearFound) &&
@@ -105,7 +107,7 @@ void Accelerator::Verify(Trace& trace, const AccelQuery& query, DBL limit, bool 
 	ReportDifference(query.thread, Describe_Ray(query.ray) + upTo, Describe(found, index, query.best), Describe(linearFound, linearIndex, linear));
 }
 
-void Accelerator::ReportOutside(const AccelQuery& query, uint32_t index, DBL depth) const
+void Accelerator::ReportOutside(const AccelQuery& query, const accel_box& box, uint32_t index, DBL depth) const
 {
 	query.thread->Stats()[Accel_Hits_Outside]++;
 	{
@@ -116,7 +118,6 @@ void Accelerator::ReportOutside(const AccelQuery& query, uint32_t index, DBL dep
 			return;
 	}
 
-	const accel_box& box = boxes[index];
 	const VECTOR& o = query.ray.Origin;
 	const VECTOR& d = query.ray.Direction;
 	char text[400];

@@ -1,0 +1,221 @@
+/*******************************************************************************
+ * povaccelspline.cpp
+ *
+ * SPDX-License-Identifier: AGPL-3.0-or-later
+ *
+ * This module says where the hits and the inside may be of shapes that are swept
+ * or turned along a spline, from the coefficients of its segments. Their hits come
+ * from roots of polynomials of up to tenth order, of which only SOLVER_ALLOWANCE
+ * is known. It is a derivative work of POV-Ray 3.7.0.10; see LICENSE.
+ *******************************************************************************/
+
+// frame.h must always be the first POV file included (pulls in platform config)
+#include "backend/frame.h"
+
+#include "backend/accel/povaccelshape.h"
+#include "backend/bounding/bcyl.h"
+#include "backend/shape/lathe.h"
+#include "backend/shape/prism.h"
+#include "backend/shape/sor.h"
+#include "backend/shape/sphsweep.h"
+#include "backend/shape/truetype.h"
+
+// this must be the last file included
+#include "base/povdebug.h"
+
+namespace pov
+{
+
+/// Values of a polynomial.
+struct PolynomialRange
+{
+	DBL lo, hi;
+
+	PolynomialRange() : lo(HUGE_VAL), hi(-HUGE_VAL) { }
+
+	void Include(DBL value)
+	{
+		lo = min(lo, value);
+		hi = max(hi, value);
+	}
+
+	void Include(const PolynomialRange& other)
+	{
+		lo = min(lo, other.lo);
+		hi = max(hi, other.hi);
+	}
+
+	DBL Size() const { return max(fabs(lo), fabs(hi)); }
+};
+
+/// The values of a*t^3 + b*t^2 + c*t + d for t in an interval: at its ends and where the derivative is 0. A place that is wrong
+/// by rounding has a value that is wrong by the square of that.
+static PolynomialRange Range_Of_Cubic(DBL a, DBL b, DBL c, DBL d, DBL first = 0.0, DBL last = 1.0)
+{
+	const DBL discriminant = b * b - 3.0 * a * c;
+	DBL place[4] = { first, last, first, last };
+	PolynomialRange range;
+
+	if(discriminant >= 0.0)
+	{
+		const DBL q = -(b + ((b >= 0.0) ? sqrt(discriminant) : -sqrt(discriminant)));
+
+		if(a != 0.0)
+			place[2] = q / (3.0 * a);
+		if(q != 0.0)
+			place[3] = c / q;
+	}
+	for(int i = 0; i < 4; i++)
+	{
+		const DBL t = min(max(place[i], first), last);
+
+		if(t == t)
+			range.Include(((a * t + b) * t + c) * t + d);
+	}
+
+	const DBL t = max(fabs(first), fabs(last));
+	const DBL rounded = ldexp(((fabs(a) * t + fabs(b)) * t + fabs(c)) * t + fabs(d), -40);
+
+	range.lo -= rounded;
+	range.hi += rounded;
+
+	return range;
+}
+
+/// A body turned around the y axis: radius and height.
+static void Bound_Turned(const ObjectBase& object, DBL radius, const PolynomialRange& height, const AccelReach& reach, AccelBounds& bounds)
+{
+	VECTOR low, high;
+
+	Make_Vector(low, -radius, height.lo, -radius);
+	Make_Vector(high, radius, height.hi, radius);
+
+	const AccelFrame frame(object.Trans, reach, Box_Between(low, high));
+	const DBL margin = SOLVER_ALLOWANCE * max(2.0 * radius, height.hi - height.lo);
+
+	bounds.SetBody(frame, frame.CylinderToScene(Y, height.lo - margin, height.hi + margin, radius + margin), Test_Flag(&object, INVERTED_FLAG));
+}
+
+void Bound_Shape(const Lathe& lathe, const AccelReach& reach, AccelBounds& bounds)
+{
+	PolynomialRange radius, height;
+
+	for(int i = 0; i < lathe.Number; i++)
+	{
+		const LATHE_SPLINE_ENTRY& e = lathe.Spline->Entry[i];
+
+		radius.Include(Range_Of_Cubic(e.A[X], e.B[X], e.C[X], e.D[X]));
+		height.Include(Range_Of_Cubic(e.A[Y], e.B[Y], e.C[Y], e.D[Y]));
+	}
+	Bound_Turned(lathe, radius.Size(), height, reach, bounds);
+}
+
+/// The square of the radius is a cubic of the height.
+void Bound_Shape(const Sor& sor, const AccelReach& reach, AccelBounds& bounds)
+{
+	const BCYL& cylinders = *sor.Spline->BCyl;
+	PolynomialRange radius2, height;
+
+	radius2.Include(max(0.0, max(sor.Base_Radius_Squared, sor.Cap_Radius_Squared)));
+	height.Include(sor.Height1);
+	height.Include(sor.Height2);
+	for(int i = 0; i < sor.Number; i++)
+	{
+		const SOR_SPLINE_ENTRY& e = sor.Spline->Entry[i];
+
+		radius2.Include(Range_Of_Cubic(e.A, e.B, e.C, e.D, cylinders.height[cylinders.entry[i].h1], cylinders.height[cylinders.entry[i].h2]));
+	}
+	Bound_Turned(sor, sqrt(radius2.hi), height, reach, bounds);
+}
+
+/// A conic sweep is scaled by its height. Caps end where the outline does, which Prism keeps in u and v.
+void Bound_Shape(const Prism& prism, const AccelReach& reach, AccelBounds& bounds)
+{
+	PolynomialRange x, z;
+
+	x.Include(prism.u1);
+	x.Include(prism.u2);
+	z.Include(prism.v1);
+	z.Include(prism.v2);
+	for(int i = 0; i < prism.Number; i++)
+	{
+		const PRISM_SPLINE_ENTRY& e = prism.Spline->Entry[i];
+
+		x.Include(Range_Of_Cubic(e.A[X], e.B[X], e.C[X], e.D[X]));
+		z.Include(Range_Of_Cubic(e.A[Y], e.B[Y], e.C[Y], e.D[Y]));
+	}
+
+	accel_box box = Empty_Box();
+
+	for(int end = 0; end < 2; end++)
+	{
+		const DBL height = (end == 0) ? prism.Height1 : prism.Height2;
+		const DBL scale = (prism.Sweep_Type == CONIC_SWEEP) ? height : 1.0;
+		VECTOR low, high;
+
+		Make_Vector(low, scale * x.lo, height, scale * z.lo);
+		Make_Vector(high, scale * x.hi, height, scale * z.hi);
+		Include_Box(box, Box_Between(low, high));
+	}
+	if(Test_Flag(&prism, DEGENERATE_FLAG))
+		box = Empty_Box(); // never hit
+
+	const AccelFrame frame(prism.Trans, reach, box);
+
+	Grow_Box(box, SOLVER_ALLOWANCE * max(max(box.hi[X] - box.lo[X], box.hi[Y] - box.lo[Y]), box.hi[Z] - box.lo[Z]));
+	Grow_Box(box, frame.rounding);
+	bounds.SetBody(frame, frame.ToScene(box), Test_Flag(&prism, INVERTED_FLAG) || Test_Flag(&prism, DEGENERATE_FLAG));
+}
+
+/// The spheres of all segments. Center and radius of each are polynomials, and so are the places where it ends on each axis; a
+/// radius may be negative.
+void Bound_Shape(const SphereSweep& sweep, const AccelReach& reach, AccelBounds& bounds)
+{
+	accel_box box = Empty_Box();
+
+	for(int i = 0; i < sweep.Num_Segments; i++)
+	{
+		const SPHSWEEP_SEG& segment = sweep.Segment[i];
+
+		for(int axis = X; axis <= Z; axis++)
+		{
+			for(int sign = -1; sign <= 1; sign += 2)
+			{
+				DBL c[4] = { 0.0, 0.0, 0.0, 0.0 };
+
+				for(int k = 0; k < segment.Num_Coefs; k++)
+					c[k] = segment.Center_Coef[k][axis] + sign * segment.Radius_Coef[k];
+
+				const PolynomialRange range = Range_Of_Cubic(c[3], c[2], c[1], c[0]);
+
+				box.lo[axis] = min(box.lo[axis], range.lo);
+				box.hi[axis] = max(box.hi[axis], range.hi);
+			}
+		}
+	}
+
+	const AccelFrame frame(sweep.Trans, reach, box);
+
+	Grow_Box(box, SOLVER_ALLOWANCE * max(max(box.hi[X] - box.lo[X], box.hi[Y] - box.lo[Y]), box.hi[Z] - box.lo[Z]));
+	Grow_Box(box, sqrt(frame.form)); // spheres of any radius are solved for
+	bounds.SetBody(frame, frame.ToScene(box), Test_Flag(&sweep, INVERTED_FLAG));
+}
+
+/// The outline is made of quadratic splines, within their control points. That a point is inside is decided by counting crossings;
+/// where one is counted wrong, it is inside far to the left of a glyph, which is not allowed for.
+void Bound_Shape(const TrueType& text, const AccelReach& reach, AccelBounds& bounds)
+{
+	accel_box box = Empty_Box();
+
+	box.lo[Z] = min(0.0, text.depth);
+	box.hi[Z] = max(0.0, text.depth);
+	text.Find_Outline(box.lo, box.hi); // includes nothing for a blank
+
+	const AccelFrame frame(text.Trans, reach, box);
+
+	Grow_Box(box, SOLVER_ALLOWANCE * max(max(box.hi[X] - box.lo[X], box.hi[Y] - box.lo[Y]), box.hi[Z] - box.lo[Z]));
+	Grow_Box(box, frame.rounding);
+	bounds.SetBody(frame, frame.ToScene(box), Test_Flag(&text, INVERTED_FLAG));
+}
+
+}
