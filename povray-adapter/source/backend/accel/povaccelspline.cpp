@@ -207,12 +207,9 @@ void Bound_Shape(const TrueType& text, const AccelReach& reach, AccelBounds& bou
 {
 	accel_box box = Empty_Box();
 
-	text.Find_Outline(box.lo, box.hi);
-	if(!Is_Empty(box))
-	{
-		box.lo[Z] = min(0.0, text.depth);
-		box.hi[Z] = max(0.0, text.depth);
-	}
+	box.lo[Z] = min(0.0, text.depth);
+	box.hi[Z] = max(0.0, text.depth);
+	text.Find_Outline(box.lo, box.hi); // includes nothing for a blank
 
 	const AccelFrame frame(text.Trans, reach, box);
 
