@@ -305,59 +305,12 @@ static void test_cancel(void **state)
     }
 }
 
-/* Fans of 32 triangles in the cells of a lattice. */
-static void make_fans(struct test_scene *s, uint32_t side)
-{
-    enum { BLADES = 32 };
-    scene_open(s);
-    struct part *p = scene_part(s, ACCEL_TRIANGLES);
-    for (uint32_t i = 0; i < side * side * side; i++) {
-        const double x = i % side, y = i / side % side, z = i / (side * side);
-        for (int b = 0; b < BLADES; b++) {
-            const double from = b * 6.283 / BLADES, to = (b + 1) * 6.283 / BLADES;
-            part_triangle(p, (const double[]){x, y, z},
-                          (const double[]){x + 0.2 * cos(from), y + 0.2 * sin(from), z + 0.1},
-                          (const double[]){x + 0.2 * cos(to), y + 0.2 * sin(to), z + 0.1});
-        }
-    }
-    scene_close(s);
-}
-
-static void hear(const struct test_scene *s, const char *config, const char *phase)
-{
-    struct watch w = {.awaited = phase};
-    accel_error error;
-    assert_int_equal(build_watched(s, config, &w, &error), ACCEL_OK);
-    if (w.longest > longest_silence)
-        fail_msg("%s: no progress for %.3f seconds", config, w.longest);
-    if (phase && w.heard == 0)
-        fail_msg("%s: no progress in phase '%s'", config, phase);
-}
-
-/* Many small clusters, and builds that take far longer than the silence that is allowed. */
-static void test_silence(void **state)
-{
-    (void)state;
-    struct test_scene s;
-    size_t count;
-    const accel_kind_info *const *kind = accel_kinds(&count);
-    make_fans(&s, 24);
-    for (size_t i = 0; i < count; i++)
-        hear(&s, kind[i]->name, NULL);
-    if (kind_is_there("hoo"))
-        hear(&s, "hoo:form=classic,connectivity=0", "octrees");
-    if (kind_is_there("hug"))
-        hear(&s, "hug:connectivity=0", "grids");
-    scene_free(&s);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_memory),
         cmocka_unit_test(test_memory_of_rays),
         cmocka_unit_test(test_cancel),
-        cmocka_unit_test(test_silence),
     };
     return cmocka_run_group_tests_name("failing_builds", tests, NULL, NULL);
 }

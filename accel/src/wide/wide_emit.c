@@ -19,8 +19,12 @@ struct emitter {
     struct wide *w;
     struct wide_rule rule;
     const struct wide_binary_tree *tree;
-    size_t used; /* bytes so far */
+    size_t used;  /* bytes so far */
+    bool stopped; /* the build is cancelled */
 };
+
+/* A leaf takes as long to lay out as looking at so many primitives, a node's room to reckon. */
+enum { TICK_LEAF = 64, TICK_ROOM = 16 };
 
 static const struct geometry *geometry_of(const struct emitter *e, uint32_t id)
 {
@@ -33,9 +37,11 @@ static const double *triangle(const struct emitter *e, uint32_t id)
     return g->data + 9 * (size_t)(id - g->first);
 }
 
-static bool tick(const struct emitter *e, uint32_t item)
+static bool tick(struct emitter *e, uint32_t item, uint32_t looked_at)
 {
-    return build_step(e->build, 1, (double)item / (double)e->tree->count);
+    const double done = (double)item / (double)e->tree->count;
+    e->stopped = e->stopped || !build_step(e->build, looked_at, done);
+    return !e->stopped;
 }
 
 /* ------------------------------------------------------------------------------- blocks ---- */
@@ -287,7 +293,7 @@ static bool emit(struct emitter *e, uint32_t place, uint32_t depth, uint32_t *wo
     struct children c = {.count = 0};
     if (top->leaf) {
         *word = emit_leaf(e, top);
-        return tick(e, top->first);
+        return tick(e, top->first, TICK_LEAF);
     }
     collect(e, place + 1, top->left_of_all, &c);
     collect(e, top->right, WIDE - top->left_of_all, &c);
@@ -310,10 +316,12 @@ static bool emit(struct emitter *e, uint32_t place, uint32_t depth, uint32_t *wo
 /* --------------------------------------------------------------------------------- room ---- */
 
 /* The bytes that the subtree takes at most. */
-static size_t room_for(const struct emitter *e, uint32_t place)
+static size_t room_for(struct emitter *e, uint32_t place)
 {
     const struct wide_binary *top = &e->tree->nodes[place];
     struct children c = {.count = 0};
+    if (!tick(e, 0, TICK_ROOM))
+        return 0;
     if (top->leaf)
         return top->count * (sizeof(struct wide_block) + 16 + 76);
     collect(e, place + 1, top->left_of_all, &c);
@@ -360,7 +368,8 @@ bool wide_emit(struct build *build, struct wide *w, struct wide_rule rule,
                const struct wide_binary_tree *tree)
 {
     struct emitter e = {.build = build, .w = w, .rule = rule, .tree = tree};
-    if (!allocate(&e, room_for(&e, 0) + TAIL) || !emit(&e, 0, 0, &w->root))
+    const size_t room = room_for(&e, 0) + TAIL;
+    if (e.stopped || !allocate(&e, room) || !emit(&e, 0, 0, &w->root))
         return false;
     trim(&e);
     w->used = e.used;
