@@ -26,7 +26,7 @@ static const struct panel {
     {"leaf",
      "leaf size",
      {"1", "2", "4", "8", "16", "32", "64", NULL},
-     {"octree", "hoo", "bsp", "bvh"}},
+     {"octree", "hoo", "bsp", NULL}},
     {"depth",
      "depth",
      {"2", "4", "6", "8", "10", "14", "20", NULL},
