@@ -84,7 +84,8 @@ for file in size gap; do
         fail "an answer of ours is wrong in $file.csv, or few were judged"
 done
 for each in $kinds; do
-    [ "$each" = linear ] || [ "$(grep -c ",$each,.*,0,auto," page/choice.csv)" -ge 2 ] ||
+    case $each in linear | bvh) continue ;; esac # they have no options to choose
+    [ "$(grep -c ",$each,.*,0,auto," page/choice.csv)" -ge 2 ] ||
         fail "what $each chooses by itself is not in choice.csv"
     [ "$(grep -c ",$each,0," page/size.csv)" -ge 2 ] || fail "$each is not in size.csv"
 done
