@@ -173,7 +173,7 @@ __attribute__((always_inline)) static inline enum wide_answer
 walk_any(const accel *a, const struct wide *w, const accel_ray *ray, struct wide_fast *f)
 {
     uint32_t stack[WIDE_MAX_DEPTH * (WIDE - 1) + WIDE + 1], *top = stack;
-    float begin[WIDE];
+    _Alignas(64) float begin[WIDE];
     if (!begin_fast(f, a, w, ray))
         return WIDE_ANY_OTHER_WAY;
     const struct node_ray n = node_ray_from(&f->ray, wide_limit(&f->ray, f->tmax));
