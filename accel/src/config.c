@@ -39,8 +39,8 @@ static char lower(char c)
     return c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c;
 }
 
-/* Levenshtein's distance between a word in upper or lower case and a text in lower case, both cut to
- * 31 characters. */
+/* Levenshtein's distance between a word in upper or lower case and a text in lower case, both cut
+ * to 31 characters. */
 static size_t distance(struct word w, const char *text)
 {
     size_t row[32], n = strlen(text) < 31 ? strlen(text) : 31, m = w.size < 31 ? w.size : 31;

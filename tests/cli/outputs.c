@@ -348,6 +348,30 @@ static void modes_are_kept(void **state)
     }
 }
 
+/* A reader of a mesh that crashes takes nothing with it: it has the handlers but owns nothing. */
+static void children_remove_nothing(void **state)
+{
+    (void)state;
+    static const int signals[] = {SIGTERM, SIGSEGV, SIGXCPU};
+    accel_output output;
+    accel_error error;
+    assert_true(accel_output_open(&output, "parents", &error));
+    for (size_t i = 0; i < sizeof signals / sizeof signals[0]; i++) {
+        fflush(NULL);
+        const pid_t child = fork();
+        if (child == 0) {
+            raise(signals[i]);
+            _exit(0);
+        }
+        int status;
+        assert_int_equal(waitpid(child, &status, 0), child);
+        assert_true(WIFSIGNALED(status) && WTERMSIG(status) == signals[i]);
+        assert_int_equal(access(output.temporary, F_OK), 0);
+    }
+    fputs("new\n", output.file);
+    assert_true(accel_output_commit(&output, &error) && holds("parents", "new\n"));
+}
+
 /* The name must not become too long by what is put behind it. */
 static void long_names_are_names(void **state)
 {
@@ -562,6 +586,7 @@ int main(void)
         cmocka_unit_test(every_call_may_be_the_last),
         cmocka_unit_test(attributes_are_kept),
         cmocka_unit_test(modes_are_kept),
+        cmocka_unit_test(children_remove_nothing),
         cmocka_unit_test(long_names_are_names),
         cmocka_unit_test(a_report_is_of_one_piece),
         cmocka_unit_test(a_report_takes_nothing_of_the_users),
