@@ -57,7 +57,7 @@ longest() {
 # run TARGET SECONDS: one run of the fuzzer, which ends with its first finding.
 run() {
     "$fuzz/tests/fuzz/fuzz_$1" -max_total_time="$2" -max_len="$(longest "$1")" -len_control=20 \
-        -timeout=30 -rss_limit_mb=2048 -print_final_stats=1 \
+        -entropic_scale_per_exec_time=1 -timeout=30 -rss_limit_mb=2048 -print_final_stats=1 \
         -artifact_prefix="$fuzz/findings/$1-" "$fuzz/corpus/$1" "$source/corpus/$1"
 }
 

@@ -10,7 +10,7 @@
 #include "case_scene.h"
 #include "fuzz.h"
 
-enum { KNOWN = 64, MOST_PRIMITIVES = 160, MOST_PARTS = 8, CONFIG_ROOM = 256 };
+enum { KNOWN = 64, MOST_PRIMITIVES = 200, MOST_PARTS = 8, CONFIG_ROOM = 256 };
 
 struct decoder {
     struct bytes bytes;

@@ -14,7 +14,7 @@
 #include "decode.h"
 #include "modes.h"
 
-enum { MOST_RAYS = 24, MOST_BYTES = 1 << 21 };
+enum { MOST_RAYS = 16, MOST_BYTES = 1 << 21 };
 
 /* ------------------------------------------------------------------ clock ---- */
 
@@ -124,7 +124,7 @@ static struct answer ask_in_mode(const struct trial *t, const accel *a, const ac
 
 /* ---------------------------------------------------------- nested queries ---- */
 
-/* What a callback asks of the structure that asks it; NULL: nothing. */
+/* What the next callback asks of the structure that asks it; NULL: nothing. */
 static const accel *asked;
 
 static void intersect_and_ask(accel_probe *probe)
@@ -134,7 +134,6 @@ static void intersect_and_ask(accel_probe *probe)
     if (a)
         accel_any(a, probe->ray, NULL);
     test_object_intersect(probe);
-    asked = a;
 }
 
 static void ask_from_callbacks(struct trial *t)

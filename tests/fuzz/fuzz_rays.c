@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Rays as text: each line is a ray just where its words are 6, 8 or 10 numbers as strtod and the
- * header say, and has their bits; and a ray that is written is read again.
+ * Rays as text: a line is a ray just where its words are 6, 8 or 10 numbers as strtod and the
+ * headers say, and has their bits; a ray that is written is read again; of a file the same lines
+ * are empty, rays, or neither.
  */
 #include <ctype.h>
 #include <errno.h>
@@ -9,6 +10,7 @@
 #include <string.h>
 
 #include "fuzz.h"
+#include "ray_lines.h"
 #include "ray_text.h"
 
 static bool is_separator(char c)
@@ -94,7 +96,8 @@ static void check_again(accel_ray ray)
         broken("'%s' is not read as it was written", text);
 }
 
-static void check_line(char *line)
+/* A line by itself, with blanks and commas between its words. */
+static void check_line(const char *line)
 {
     accel_ray found, expected;
     char *copy = strdup(line);
@@ -110,14 +113,155 @@ static void check_line(char *line)
     free(copy);
 }
 
+/* ------------------------------------------------------------------- file ---- */
+
+enum { MOST_WORDS = 10 };
+
+static const char blanks[] = " \t\v\f", between[] = " \t\v\f,;";
+
+/* A line's words, with a blank behind each, and what is before each of them and behind the last. */
+struct cut {
+    char *text;
+    char gap[MOST_WORDS + 1];
+    int words;
+};
+
+/* A comma or a semicolon with or without blanks; a blank where there is none; 0 for more than one.
+ */
+static char kind_of_gap(const char *gap, size_t length)
+{
+    char kind = ' ';
+    for (size_t i = 0; i < length; i++)
+        if (!strchr(blanks, gap[i]))
+            kind = kind == ' ' ? gap[i] : '\0';
+    return kind;
+}
+
+/* False: there are too many words. */
+static bool cut_line(const char *line, struct cut *c)
+{
+    char *to = c->text;
+    for (c->words = 0;; c->words++) {
+        const size_t gap = strspn(line, between);
+        c->gap[c->words] = kind_of_gap(line, gap);
+        line += gap;
+        *to = '\0';
+        if (*line == '\0')
+            return true;
+        if (c->words == MOST_WORDS)
+            return false;
+        const size_t word = strcspn(line, between);
+        memcpy(to, line, word);
+        to[word] = ' ';
+        to += word + 1;
+        line += word;
+    }
+}
+
+/* Words in threes and pairs, alike within. */
+static bool expect_gaps(const struct cut *c)
+{
+    char inner = '\0';
+    bool fine = c->gap[0] == ' ';
+    for (int i = 1; i <= c->words; i++) {
+        const bool within = i < c->words && i != 3 && i != 6 && i != 8;
+        fine = fine && c->gap[i] != '\0' && (!within || !inner || inner == c->gap[i]);
+        inner = within ? c->gap[i] : inner;
+    }
+    return fine;
+}
+
+static bool expect_names(const char *line)
+{
+    int words = 0;
+    for (const char *at = line + strspn(line, between); *at != '\0'; words++) {
+        const char *end = at + strcspn(at, between);
+        char *number_end;
+        strtod(at, &number_end);
+        if ((!isalpha((unsigned char)*at) && !strchr("\"'_", *at)) || number_end == end)
+            return false;
+        at = end + strspn(end, between);
+    }
+    return words > 0;
+}
+
+/* What the line is; *begun: a line that was not empty was there before. */
+static accel_ray_line expect_line(const char *line, bool *begun, accel_ray *ray)
+{
+    struct cut c = {.text = malloc(strlen(line) + 2)};
+    const bool first = !*begun, empty = line[strspn(line, blanks)] == '\0';
+    if (!c.text)
+        broken("no memory");
+    *begun = *begun || !empty;
+    const bool names = !empty && first && expect_names(line);
+    const bool is_ray = cut_line(line, &c) && expect_gaps(&c) && expect_ray(c.text, ray);
+    free(c.text);
+    return empty || names ? ACCEL_RAY_LINES_END : is_ray ? ACCEL_RAY_LINE : ACCEL_NO_RAY_LINE;
+}
+
+/* Takes the next line of the file, without its comment. False: a zero is in it. */
+static bool next_line(const char **at, const char *end, char *line)
+{
+    size_t size = 0;
+    while (*at + size < end && (*at)[size] != '\n' && (*at)[size] != '\r')
+        size++;
+    memcpy(line, *at, size);
+    line[size] = '\0';
+    const bool whole = strlen(line) == size;
+    line[strcspn(line, "#")] = '\0';
+    *at += size;
+    if (*at < end)
+        *at += end - *at > 1 && (*at)[0] == '\r' && (*at)[1] == '\n' ? 2 : 1;
+    return whole;
+}
+
+/* What comes next in the file, of what the lines are one by one. */
+static accel_ray_line expect_next(const char **at, const char *end, char *line, bool *begun,
+                                  accel_ray *ray)
+{
+    while (*at < end) {
+        if (!next_line(at, end, line))
+            return ACCEL_NO_RAY_LINE;
+        const accel_ray_line found = expect_line(line, begun, ray);
+        if (found != ACCEL_RAY_LINES_END)
+            return found;
+    }
+    return ACCEL_RAY_LINES_END;
+}
+
+static void check_file(const char *bytes, size_t size)
+{
+    char *copy = malloc(size + 1), *line = malloc(size + 1);
+    if (!copy || !line)
+        broken("no memory");
+    memcpy(copy, bytes, size);
+    accel_ray_lines lines =
+        accel_ray_lines_start(&(accel_file){.path = "rays", .bytes = copy, .size = size});
+    const char *at = bytes + (lines.at - copy), *end = bytes + size;
+    accel_ray_line found;
+    bool begun = false;
+    do {
+        accel_ray ray, expected;
+        found = accel_next_ray(&lines, &ray);
+        if (found != expect_next(&at, end, line, &begun, &expected))
+            broken("line %zu, '%s', is taken as %d", lines.number, line, (int)found);
+        if (found == ACCEL_RAY_LINE && !same_ray(&ray, &expected))
+            broken("line %zu, '%s', is another ray", lines.number, line);
+    } while (found == ACCEL_RAY_LINE);
+    free(copy);
+    free(line);
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
 {
     char *text = malloc(size + 1), *next;
-    if (!text)
+    if (!text || size == 0) {
+        free(text);
         return 0;
-    if (size > 0)
-        memcpy(text, bytes, size);
+    }
+    memcpy(text, bytes, size);
     text[size] = '\0';
+    check_file(text, size);
     for (char *line = text; line; line = next) {
         next = strchr(line, '\n');
         if (next)
