@@ -67,9 +67,7 @@ Accelerator::Accelerator(POVMS_Object& options) :
 	mentioned(options.Exist(kPOVAttrib_Accelerator) || options.Exist(kPOVAttrib_AcceleratorVerify)),
 	verify(options.TryGetBool(kPOVAttrib_AcceleratorVerify, false)),
 	lightsLeftOut(0),
-	sceneData(NULL),
-	farIsBuilt(false),
-	farQueries(0)
+	sceneData(NULL)
 {
 	const char *environment = getenv("POV_ACCELERATOR");
 
@@ -78,8 +76,8 @@ Accelerator::Accelerator(POVMS_Object& options) :
 
 Accelerator::~Accelerator()
 {
-	accel_free(nearPart.structure);
-	accel_free(farPart.structure);
+	for(int i = 0; i < ACCEL_REACHES; i++)
+		accel_free(parts[i].structure);
 }
 
 MessageFactory Accelerator::Messages(const SceneData& scene)
@@ -228,10 +226,10 @@ static vector<accel_ray> Camera_Pilot(const Camera& camera)
 void Accelerator::BuildPart(Part& part, const accel_hooks *hooks, accel_error& error) const
 {
 	const vector<accel_box> boxes = Find_Boxes(objects, part.reach);
-	double parts = 0.0;
+	double tests = 0.0;
 
 	for(vector<ObjectPtr>::const_iterator i = objects.begin(); i != objects.end(); i++)
-		parts += Count_Parts(*i);
+		tests += Count_Parts(*i);
 
 	accel_geometry geometry = accel_geometry();
 	geometry.type = ACCEL_OBJECTS;
@@ -240,13 +238,13 @@ void Accelerator::BuildPart(Part& part, const accel_hooks *hooks, accel_error& e
 	geometry.objects.order = ACCEL_ORDER_RAW; // POV-Ray's own depths decide
 	geometry.objects.intersect = Test_Object;
 	geometry.objects.user = NULL;
-	geometry.objects.cost = 100.0 * parts / max(1.0, double(objects.size())); // a test of a sphere or box: about 100 ns
+	geometry.objects.cost = 100.0 * tests / max(1.0, double(objects.size())); // a test of a sphere or box: about 100 ns
 
 	const accel_scene library_scene = { &geometry, 1 };
 
-	error.status = accel_build(&part.structure, &library_scene, config.c_str(), hooks, &error);
 	if(verify)
 		part.boxes = boxes;
+	part.built = (accel_build(&part.structure, &library_scene, config.c_str(), hooks, &error) == ACCEL_OK);
 }
 
 void Accelerator::Build(const SceneData& scene, Task& task)
@@ -258,8 +256,13 @@ void Accelerator::Build(const SceneData& scene, Task& task)
 	}
 	lightsLeftOut = scene.objects.size() - objects.size();
 	sceneData = &scene;
-	Find_Reaches(scene, objects, nearPart.reach, farPart.reach);
-	beyondBoxes = Objects_Beyond_Boxes(objects, nearPart.reach);
+
+	AccelReach reach[ACCEL_REACHES];
+
+	Find_Reaches(scene, objects, reach);
+	for(int i = 0; i < ACCEL_REACHES; i++)
+		parts[i].reach = reach[i];
+	beyondBoxes = Objects_Beyond_Boxes(objects, reach[0]);
 
 	const vector<accel_ray> pilot = Camera_Pilot(scene.parsedCamera);
 	AccelProgress progress(scene, task);
@@ -270,42 +273,43 @@ void Accelerator::Build(const SceneData& scene, Task& task)
 	hooks.pilot_count = pilot.size();
 	accel_error error;
 
-	BuildPart(nearPart, &hooks, error);
+	BuildPart(parts[0], &hooks, error);
 	progress.RethrowIfStopped();
-	if(error.status != ACCEL_OK)
+	if(parts[0].built == false)
 		Throw_Library_Error(error);
 }
 
-static boost::mutex farMutex;
+static boost::mutex buildMutex;
 
-/// Built when the first ray comes from that far: most scenes have none.
-const Accelerator::Part& Accelerator::FarPart() const
+/// The part whose boxes hold the hits of a ray from there, which is built if need be; NULL if there is none.
+const Accelerator::Part *Accelerator::ChoosePart(const VECTOR origin) const
 {
-	if(farIsBuilt == false)
+	if(parts[0].reach.Holds(origin))
+		return &parts[0];
+	for(int i = 1; i < ACCEL_REACHES; i++)
 	{
-		boost::mutex::scoped_lock lock(farMutex);
+		Part& part = parts[i];
 
-		if(farIsBuilt == false)
+		if(part.reach.Holds(origin))
 		{
-			accel_error error;
+			if(part.built == false)
+			{
+				boost::mutex::scoped_lock lock(buildMutex);
+				accel_error error;
 
-			BuildPart(farPart, NULL, error);
-			if(error.status != ACCEL_OK)
-				Throw_Library_Error(error);
-			farIsBuilt = true;
+				if(part.built == false)
+				{
+					BuildPart(part, NULL, error);
+					if(part.built == false)
+						Throw_Library_Error(error);
+				}
+			}
+			part.queries.fetch_add(1, std::memory_order_relaxed);
+			return &part;
 		}
 	}
 
-	return farPart;
-}
-
-/// The part whose boxes hold the hits of a ray from there; NULL if there is none.
-const Accelerator::Part *Accelerator::ChoosePart(const VECTOR origin) const
-{
-	if(nearPart.reach.Holds(origin))
-		return &nearPart;
-
-	return farPart.reach.Holds(origin) ? &FarPart() : NULL;
+	return NULL;
 }
 
 
@@ -358,8 +362,6 @@ bool Accelerator::Find(Trace& trace, AccelQuery& query) const
 	// The library refuses a ray that is not finite, but POV-Ray's leaf tests may still answer it.
 	if(counters.refused > 0)
 		found = Search_Linearly(trace, query, query.best, hit.prim);
-	if(part == &farPart)
-		farQueries.fetch_add(1, std::memory_order_relaxed);
 
 	stats[Accel_Queries]++;
 	if(found)
@@ -393,7 +395,7 @@ void Accelerator::FindContainingInteriors(const VECTOR point, TraceThreadData *t
 	RenderStatistics& stats = thread->Stats();
 	vector<uint32_t> named, candidates;
 
-	accel_point(nearPart.structure, point, Note_Object, &named, &counters);
+	accel_point(parts[0].structure, point, Note_Object, &named, &counters);
 	std::set_union(named.begin(), named.end(), beyondBoxes.begin(), beyondBoxes.end(), std::back_inserter(candidates));
 	if(counters.refused > 0)
 		query.SearchLinearly();
@@ -447,11 +449,11 @@ static std::string Describe_Structure(const accel_info& info, size_t lightsLeftO
 
 void Accelerator::GetStatistics(POVMS_Object& parserStats) const
 {
-	if(nearPart.structure != NULL)
+	if(parts[0].structure != NULL)
 	{
 		accel_info info;
 
-		accel_describe(nearPart.structure, &info);
+		accel_describe(parts[0].structure, &info);
 		parserStats.SetString(kPOVAttrib_AcceleratorText, Describe_Structure(info, lightsLeftOut).c_str());
 	}
 	else if(chosen)
@@ -493,10 +495,13 @@ void Accelerator::GetStatistics(POVMS_Object& renderStats, const RenderStatistic
 	const POV_ULONG different = stats[Accel_Queries_Different];
 	std::string text;
 
-	if(nearPart.structure != NULL)
-		text += Describe_Built(nearPart.structure);
-	if(farIsBuilt)
-		text += Describe_Far(farPart.structure, farQueries, nearPart.reach.radius);
+	if(parts[0].structure != NULL)
+		text += Describe_Built(parts[0].structure);
+	for(int i = 1; i < ACCEL_REACHES; i++)
+	{
+		if(parts[i].built)
+			text += Describe_Far(parts[i].structure, parts[i].queries, parts[i - 1].reach.radius);
+	}
 	if(verified > 0)
 		text += str(format("Accelerator verified: %13d   Differences:     %15d\n") % verified % different);
 	if(refused > 0)

@@ -92,16 +92,14 @@ class Accelerator
 			AccelReach reach;
 			accel *structure; // NULL until built
 			vector<accel_box> boxes; // kept for Accelerator_Verify alone
+			std::atomic<bool> built;
+			std::atomic<POV_ULONG> queries; // of all but the first
 
-			Part() : structure(NULL) { reach.radius = -1.0; }
+			Part() : structure(NULL), built(false), queries(0) { }
 		};
 
-		/// for most rays
-		Part nearPart;
-		/// for rays from farther away; built when the first one comes
-		mutable Part farPart;
-		mutable std::atomic<bool> farIsBuilt;
-		mutable std::atomic<POV_ULONG> farQueries;
+		/// for most rays, and for rays from farther and farther away, each built when the first one comes
+		mutable Part parts[ACCEL_REACHES];
 
 		/// objects with a hit outside their box that were named in a message
 		mutable std::set<uint32_t> namedOutside;
@@ -109,7 +107,6 @@ class Accelerator
 		class BoxCheck;
 
 		void BuildPart(Part& part, const accel_hooks *hooks, accel_error& error) const;
-		const Part& FarPart() const;
 		const Part *ChoosePart(const VECTOR origin) const;
 		bool Find(Trace& trace, AccelQuery& query) const;
 		void Verify(Trace& trace, const AccelQuery& query, const Part *part, DBL limit, bool found, uint32_t index) const;

@@ -258,48 +258,62 @@ static vector<DBL> Radii(const vector<accel_box>& boxes)
 	return radii;
 }
 
-/*
- * Rays begin at the camera, on an object or at a light. Rounding in a leaf test grows
- * with the square of the distance, against the square of the radius of the shape:
- * at 2^19 radii it makes the box of a sphere about 2 % larger. So most of the
- * objects, 19 of 20, set the near cube. The far one holds all bounded objects, and
- * where there are others, what MAX_DISTANCE lets rays reach; it ends where boxes of
- * half-spaces do. Rays from outside are not for structures.
- */
-void Find_Reaches(const SceneData& scene, const vector<ObjectPtr>& objects, AccelReach& nearReach, AccelReach& farReach)
+/// How far from a point the finite boxes, and with photons the lights, reach along an axis.
+static DBL Farthest_Place(const SceneData& scene, const vector<accel_box>& boxes, const VECTOR center)
 {
-	const DBL farthest = ldexp(1.0, 27);
+	DBL farthest = 0.0;
 
-	Assign_Vector(nearReach.center, scene.parsedCamera.Location);
-	nearReach.radius = 0.0;
-	farReach = nearReach;
-
-	const vector<accel_box> boxes = Find_Boxes(objects, nearReach);
-	vector<DBL> radii = Radii(boxes);
-
-	if(radii.size() < boxes.size())
-		farReach.radius = ldexp(1.0, 25);
-	for(vector<accel_box>::const_iterator box = boxes.begin(); box != boxes.end(); box++)
+	for(int axis = X; axis <= Z; axis++)
 	{
-		for(int axis = X; (axis <= Z) && Is_Finite(*box) && !Is_Empty(*box); axis++)
+		for(vector<accel_box>::const_iterator box = boxes.begin(); box != boxes.end(); box++)
 		{
-			farReach.radius = max(farReach.radius, 2.0 * fabs(box->lo[axis] - farReach.center[axis]));
-			farReach.radius = max(farReach.radius, 2.0 * fabs(box->hi[axis] - farReach.center[axis]));
+			if(Is_Finite(*box) && !Is_Empty(*box))
+				farthest = max(farthest, max(fabs(box->lo[axis] - center[axis]), fabs(box->hi[axis] - center[axis])));
+		}
+		for(vector<LightSource *>::const_iterator light = scene.lightSources.begin(); light != scene.lightSources.end(); light++)
+		{
+			if(scene.photonSettings.photonsEnabled)
+				farthest = max(farthest, fabs((*light)->Center[axis] - center[axis]));
 		}
 	}
-	for(vector<LightSource *>::const_iterator light = scene.lightSources.begin(); light != scene.lightSources.end(); light++)
-	{
-		for(int axis = X; (axis <= Z) && scene.photonSettings.photonsEnabled; axis++)
-			farReach.radius = max(farReach.radius, 2.0 * fabs((*light)->Center[axis] - farReach.center[axis]));
-	}
-	farReach.radius = min(farReach.radius, farthest);
-	nearReach.radius = farReach.radius;
+
+	return farthest;
+}
+
+/*
+ * Rays begin at the camera, on an object or at a light. Rounding in a leaf test grows
+ * with the distance of that place, in units of the size of the shape. So most of the
+ * objects, 19 of 20, set the near cubes: at 2^14 radii a sor is wrong by a sixth of
+ * its size, at 2^20 a sphere by less than that. The last cube holds all bounded
+ * objects, and where there are others, what MAX_DISTANCE lets rays reach. From
+ * farther away no structure is asked.
+ */
+void Find_Reaches(const SceneData& scene, const vector<ObjectPtr>& objects, AccelReach reach[ACCEL_REACHES])
+{
+	static const int exponents[ACCEL_REACHES - 1] = { 14, 20 };
+	AccelReach point;
+
+	Assign_Vector(point.center, scene.parsedCamera.Location);
+	point.radius = 0.0;
+
+	const vector<accel_box> boxes = Find_Boxes(objects, point);
+	vector<DBL> radii = Radii(boxes);
+	DBL farthest = 2.0 * Farthest_Place(scene, boxes, point.center), radius = 1.0;
+
+	if(radii.size() < boxes.size())
+		farthest = max(farthest, 2.0 * MAX_DISTANCE);
+	farthest = min(farthest, ldexp(1.0, 27));
 	if(radii.empty() == false)
 	{
 		vector<DBL>::iterator small = radii.begin() + radii.size() / 20;
 
 		std::nth_element(radii.begin(), small, radii.end());
-		nearReach.radius = min(farReach.radius, ldexp(*small, 19));
+		radius = *small;
+	}
+	for(int i = 0; i < ACCEL_REACHES; i++)
+	{
+		reach[i] = point;
+		reach[i].radius = (i == ACCEL_REACHES - 1) ? farthest : min(farthest, ldexp(radius, exponents[i]));
 	}
 }
 

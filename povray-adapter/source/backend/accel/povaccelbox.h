@@ -22,9 +22,9 @@ namespace pov
 
 class SceneData;
 
-/// Where rays begin that the boxes of a structure are made for. Most begin near the camera, where rounding is small; the far cube
-/// holds all places from which others may.
-void Find_Reaches(const SceneData& scene, const vector<ObjectPtr>& objects, AccelReach& nearReach, AccelReach& farReach);
+/// Where rays begin that boxes are made for, each within the next. Most begin in the first, near the camera, where rounding is
+/// small.
+void Find_Reaches(const SceneData& scene, const vector<ObjectPtr>& objects, AccelReach reach[ACCEL_REACHES]);
 
 /// A box for each object that holds all hits of rays that begin within `reach`, with infinite sides where none is known,
 /// and the lower side above the upper one if it has no hits.

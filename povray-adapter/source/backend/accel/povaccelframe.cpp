@@ -18,10 +18,11 @@
  * - A leaf test that solves t*t*a + 2*t*b + c = 0 with a = d*d, b = o*d, c = o*o - r*r
  *   computes the discriminant b*b - a*c. Each of a, b, c is a sum of three products,
  *   wrong by 5u of the sum of their sizes, so the discriminant is wrong by 25u * a * L^2
- *   where L = `length` bounds |o| and |t*d|, and the form at the root by that over a;
- *   rounding the root itself adds 16u * L^2, and a direction whose length is not quite
- *   1 another 6u * L^2. `form` is 64u * L^2. So a hit on a sphere of radius r lies no
- *   farther from its centre than sqrt(r*r + form), however small the chord.
+ *   where L bounds |o| and |t*d|, and the form at the root by that over a; rounding
+ *   the root itself adds 16u * L^2, and a direction whose length is not quite 1
+ *   another 6u * L^2. `form` is 64u * L^2 with L = `length`, or for a sphere, where o is
+ *   seen from the centre, with L = `distance`. So a hit on a sphere of radius r lies
+ *   no farther from its centre than sqrt(r*r + sphereForm), however small the chord.
  *
  * Boxes are brought back with TRANSFORM::matrix, which is not exactly the inverse of
  * `inverse`; `mismatch` is what the product of both takes from a point. It is a
@@ -70,27 +71,43 @@ AccelFrame::AccelFrame(const TRANSFORM *trans, const AccelReach& reach, const ac
 
 	if(trans != NULL)
 		FindMismatch(image);
-	length = way = 0.0;
+	FindSizes(reach, shape, image);
+}
+
+void AccelFrame::FindSizes(const AccelReach& reach, const accel_box& shape, const accel_box& image)
+{
+	VECTOR coordinate, way;
+
+	for(int k = X; k <= Z; k++)
+	{
+		coordinate[k] = fabs(reach.center[k]) + max(reach.radius, 0.0) + Largest_Coordinate(image, k);
+		way[k] = min(coordinate[k], max(reach.radius, 0.0) + max(fabs(image.lo[k] - reach.center[k]), fabs(image.hi[k] - reach.center[k])));
+	}
+	distance = length = 0.0;
 	for(int axis = X; axis <= Z; axis++)
 	{
-		DBL size = fabs(inverse[3][axis]);
+		DBL sum = fabs(inverse[3][axis]), difference = 0.0;
 
 		for(int k = X; k <= Z; k++)
-			size += fabs(inverse[k][axis]) * (fabs(reach.center[k]) + reach.radius + Largest_Coordinate(image, k));
-		rounding[axis] = ldexp(size, -49);
-		length += Sqr(size + Largest_Coordinate(shape, axis));
-		way += Sqr(fabs(reach.center[axis]) + reach.radius + Largest_Coordinate(image, axis));
+		{
+			sum += fabs(inverse[k][axis]) * coordinate[k];
+			difference += fabs(inverse[k][axis]) * way[k];
+		}
+		rounding[axis] = ldexp(sum, -49);
+		distance += Sqr(difference);
+		length += Sqr(difference + Largest_Coordinate(shape, axis));
 	}
+	sphereForm = ldexp(distance, -47);
 	form = ldexp(length, -47);
+	distance = sqrt(distance);
 	length = sqrt(length);
-	way = sqrt(way);
+	known = known && (length < HUGE_VAL);
 	for(int axis = X; axis <= Z; axis++)
 	{
-		slack[axis] = mismatch[axis] + ldexp(way, -48);
+		slack[axis] = mismatch[axis] + ldexp(coordinate[axis], -48);
 		for(int k = X; k <= Z; k++)
 			slack[axis] += fabs(matrix[k][axis]) * rounding[k];
 	}
-	known = known && (length < HUGE_VAL);
 }
 
 /*

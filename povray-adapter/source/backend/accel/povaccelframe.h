@@ -18,11 +18,17 @@
 namespace pov
 {
 
+/// How many cubes there are, from near to far.
+static const int ACCEL_REACHES = 3;
+
 /// Boxes are found for rays that begin in this cube. From farther away, leaf tests are wrong by more.
 struct AccelReach
 {
 	VECTOR center;
 	DBL radius;
+
+	/// No place at all.
+	AccelReach() : radius(-1.0) { center[X] = center[Y] = center[Z] = 0.0; }
 
 	bool Holds(const VECTOR origin) const
 	{
@@ -41,12 +47,13 @@ class AccelFrame
 		bool known;
 		/// How far the point on a ray that a leaf test computes in this space lies from the one that its depth means, along each axis.
 		VECTOR rounding;
-		/// Any point of a ray between its origin and the shape, its differences and their sums lie in a ball of this size around the origin of this space.
+		/// Bounds in this space the way from the origin of a ray to any point of the shape.
+		DBL distance;
+		/// Bounds the coordinates of such a ray as well, seen from the origin of this space.
 		DBL length;
-		/// The size of the error in a quadratic form with factors 1 that is 0 at a computed hit: see povaccelframe.cpp.
-		DBL form;
-		/// The longest way from the origin of a ray to the shape, in the scene.
-		DBL way;
+		/// The error of a quadratic form with factors 1 at a computed hit, for a sphere, whose centre is subtracted first, and for
+		/// what stands at the origin of this space: see povaccelframe.cpp.
+		DBL sphereForm, form;
 		/// How far the point that a leaf test hands to others (IPoint) may lie from the one that its depth means.
 		VECTOR slack;
 
@@ -70,6 +77,7 @@ class AccelFrame
 		VECTOR mismatch; // in the scene: how far matrix brings a point from where inverse took it from
 
 		void FindMismatch(const accel_box& image);
+		void FindSizes(const AccelReach& reach, const accel_box& shape, const accel_box& image);
 };
 
 }

@@ -90,7 +90,7 @@ accel_box Box_Of_Sphere(const AccelFrame& frame, const VECTOR center, DBL radius
 
 	Make_Vector(point, 0.0, 0.0, 0.0);
 
-	return frame.RoundToScene(center, point, sqrt(radius2 + frame.form));
+	return frame.RoundToScene(center, point, sqrt(radius2 + frame.sphereForm));
 }
 
 /*

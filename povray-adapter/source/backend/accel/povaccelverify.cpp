@@ -91,7 +91,7 @@ void Accelerator::Verify(Trace& trace, const AccelQuery& query, const Part *part
 {
 	Intersection linear;
 	uint32_t linearIndex = ACCEL_NONE;
-	BoxCheck check(*this, query, (part != NULL) ? part->boxes : nearPart.boxes);
+	BoxCheck check(*this, query, (part != NULL) ? part->boxes : parts[0].boxes);
 
 	linear.Depth = limit;
 	bool linearFound = Search_Linearly(trace, query, linear, linearIndex, (part != NULL) ? &check : NULL);
