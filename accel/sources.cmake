@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 # Sets `sources`, the files to compile, and `definitions`, for the kinds in ACCEL_KINDS.
 #
-# A part's files are src/PART.c, src/PART_*.c and src/PART/*.c; files of no part are always compiled. A part may
-# bear the name of a kind, such as octree, of which hoo is made too: src/octree.c itself is then only
-# compiled for that kind.
+# A part's files are src/PART.c, src/PART_*.c and src/PART/*.c; files of no part are always compiled.
+# A part may bear the name of a kind, such as octree, of which hoo is made too: src/octree.c itself is
+# then only compiled for that kind.
 set(kinds "")
 set(parts "")
 file(STRINGS src/kinds.h lines REGEX "^KIND\\(")

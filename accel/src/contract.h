@@ -5,7 +5,7 @@
  * sum are fused into one rounding (contraction) in one of them, rays slip through.
  *
  * CMake's build passes -ffp-contract=off. Flags that show themselves are refused here; gcc's
- * contraction, on by default without -std=c11, does not, so accel_build asks contract_kept.
+ * contraction, on by default without -std=c11, does not, so accel_build checks at run time.
  */
 #ifndef ACCEL_CONTRACT_H
 #define ACCEL_CONTRACT_H
@@ -22,14 +22,15 @@
 #pragma STDC FP_CONTRACT OFF
 #endif
 
-/* Does the file that calls this round products and sums on their own? In every rounding mode equal
- * products are equal, and 2^60 swallows a third. The values are volatile, or the compiler would
- * compute the answer itself, without contraction. */
-static inline bool contract_kept(void)
-{
-    const volatile double third = 1.0 / 3.0, large = 0x1p60;
-    const double a = third, b = third, c = third, d = third, e = large;
-    return a * b - c * d == 0.0 && a + e - e != a;
-}
+/* Defines a function: does what stands here round products and sums on their own? In every rounding
+ * mode equal products are equal, and 2^60 swallows a third. The values are volatile, or the
+ * compiler would compute the answer itself, without contraction. */
+#define CONTRACT_CHECK(name)                                                                       \
+    static bool name(void)                                                                         \
+    {                                                                                              \
+        const volatile double third = 1.0 / 3.0, large = 0x1p60;                                   \
+        const double a = third, b = third, c = third, d = third, e = large;                        \
+        return a * b - c * d == 0.0 && a + e - e != a;                                             \
+    }
 
 #endif

@@ -7,7 +7,7 @@
 expect 0 --help
 says "usage: accel COMMAND"
 for command in kinds info check trace diff export; do
-    "$accel" --help | grep -qE "^  $command " || fail "accel --help does not list $command"
+    grep -qE "^  $command " <<<"$("$accel" --help)" || fail "accel --help does not list $command"
     expect 0 "$command" --help
     says "usage: accel $command"
     says "--quiet"

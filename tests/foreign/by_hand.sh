@@ -12,11 +12,12 @@ root=$here/../..
 # compile FLAG...
 compile() {
     quietly "$compiler $*" "$compiler" -O3 -march=native -Wall -Wextra -Wpedantic -Werror "$@" \
-        "-I$root/accel/include" "$here/host.c" "$root"/accel/src/*.c "$root"/accel/src/*/*.c -o "$work/host" -lm -lpthread
+        "-I$root/accel/include" "$here/host.c" "$root"/accel/src/*.c "$root"/accel/src/*/*.c \
+        -o "$work/host" -lm -lpthread
 }
 
 compile -ffp-contract=fast
-if "$compiler" -march=native -dM -E -x c /dev/null | grep -q __FMA__; then
+if grep -q __FMA__ <<<"$("$compiler" -march=native -dM -E -x c /dev/null)"; then
     if "$work/host" >"$work/out" 2>"$work/err"; then
         fail "a library with contraction builds structures"
     fi

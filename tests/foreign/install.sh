@@ -20,7 +20,7 @@ pc=$library/pkgconfig/accel.pc
 # The version is one, wherever it stands.
 IFS=. read -r major minor _ <<<"$version"
 soname=libaccel.so.$major.$minor
-readelf -d "$library/libaccel.so" | grep -qF "[$soname]" || fail "the soname is not $soname"
+grep -qF "[$soname]" <<<"$(readelf -d "$library/libaccel.so")" || fail "the soname is not $soname"
 [ -f "$library/libaccel.so.$version" ] || fail "no libaccel.so.$version"
 [ "$(pkg-config --modversion "$pc")" = "$version" ] || fail "accel.pc is of another version"
 grep -qx "version $version" "$work/expected" || fail "accel_version: $(head -n 1 "$work/expected")"
@@ -34,7 +34,7 @@ by_pkg_config() {
     read -r -a flags <<<"$(pkg-config --cflags --libs "$pc")"
     quietly "$compiler by pkg-config" "$compiler" -O2 -Wall -Wextra -Wpedantic -Werror "$file" \
         -o "$work/host" "${flags[@]}"
-    readelf -d "$work/host" | grep -q "NEEDED.*$soname" || fail "the shared library is not taken"
+    grep -q "NEEDED.*$soname" <<<"$(readelf -d "$work/host")" || fail "the shared library is not taken"
     same_answers "$compiler by pkg-config, shared" env "LD_LIBRARY_PATH=$library" "$work/host"
     read -r -a flags <<<"$(pkg-config --static --cflags --libs "$pc")"
     quietly "$compiler by pkg-config --static" "$compiler" -O2 -static "$file" -o "$work/host" \

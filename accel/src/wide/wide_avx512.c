@@ -18,7 +18,8 @@
 #pragma clang attribute push(__attribute__((target(FEATURES))), apply_to = function)
 #else
 #pragma GCC push_options
-#pragma GCC optimize("fp-contract=off") /* the fused operations of the set are there to tempt it */
+/* The fused operations of the set are there to tempt it. */
+#pragma GCC optimize("fp-contract=off")
 #pragma GCC target("avx512f,avx512vl,avx512dq,avx512bw,avx2,fma,bmi,lzcnt,popcnt")
 #endif
 
@@ -176,18 +177,21 @@ static inline bool leaf_test(const struct leaf_ray *l, struct wide_fast *f,
 
 #include "wide_fast.h"
 
-static bool works_here(void)
-{
-    return contract_kept() && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
-           __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") &&
-           __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi");
-}
+/* By the instructions of the set, so only to be called where they are. */
+__attribute__((noinline)) CONTRACT_CHECK(contract_kept)
 
 #if defined(__clang__)
 #pragma clang attribute pop
 #else
 #pragma GCC pop_options
 #endif
+
+static bool works_here(void)
+{
+    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+           __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") &&
+           __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi") && contract_kept();
+}
 
 const struct wide_isa wide_avx512 = {
     .name = "avx512",

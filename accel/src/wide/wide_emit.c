@@ -19,8 +19,9 @@ struct emitter {
     struct wide *w;
     struct wide_rule rule;
     const struct wide_binary_tree *tree;
-    size_t used;  /* bytes so far */
-    bool stopped; /* the build is cancelled */
+    size_t used;   /* bytes so far */
+    uint32_t done; /* primitives laid out */
+    bool stopped;  /* the build is cancelled */
 };
 
 /* A leaf takes as long to lay out as looking at so many primitives, a node's room to reckon. */
@@ -37,10 +38,10 @@ static const double *triangle(const struct emitter *e, uint32_t id)
     return g->data + 9 * (size_t)(id - g->first);
 }
 
-static bool tick(struct emitter *e, uint32_t item, uint32_t looked_at)
+static bool tick(struct emitter *e, uint32_t looked_at)
 {
-    const double done = (double)item / (double)e->tree->count;
-    e->stopped = e->stopped || !build_step(e->build, looked_at, done);
+    const double part = (double)e->done / (double)e->tree->count;
+    e->stopped = e->stopped || !build_step(e->build, looked_at, part);
     return !e->stopped;
 }
 
@@ -293,7 +294,8 @@ static bool emit(struct emitter *e, uint32_t place, uint32_t depth, uint32_t *wo
     struct children c = {.count = 0};
     if (top->leaf) {
         *word = emit_leaf(e, top);
-        return tick(e, top->first, TICK_LEAF);
+        e->done += top->count;
+        return tick(e, TICK_LEAF);
     }
     collect(e, place + 1, top->left_of_all, &c);
     collect(e, top->right, WIDE - top->left_of_all, &c);
@@ -320,7 +322,7 @@ static size_t room_for(struct emitter *e, uint32_t place)
 {
     const struct wide_binary *top = &e->tree->nodes[place];
     struct children c = {.count = 0};
-    if (!tick(e, 0, TICK_ROOM))
+    if (!tick(e, TICK_ROOM))
         return 0;
     if (top->leaf)
         return top->count * (sizeof(struct wide_block) + 16 + 76);

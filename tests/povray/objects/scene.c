@@ -211,7 +211,8 @@ static void write_head(struct writer *w, const struct world *world, const struct
 static int draw_object(FILE *out, const struct request *request, const struct world *world,
                        int number, struct placement *p)
 {
-    struct writer w = {out, dice_from(request->seed, (uint64_t)number + 1), BUDGET};
+    struct writer w = {out, dice_from(request->seed, (uint64_t)number + 1), BUDGET,
+                       world->dark};
     /* Shapes take turns over the seeds as well. */
     const uint64_t turn = request->seed * (uint64_t)request->count + (uint64_t)number;
     const int wanted = request->type >= 0 ? request->type : (int)(turn % (uint64_t)shape_count);
@@ -222,7 +223,7 @@ static int draw_object(FILE *out, const struct request *request, const struct wo
 static bool write_scene(FILE *out, const struct request *request)
 {
     const struct world world = draw_world(request->seed);
-    struct writer head = {out, dice_from(request->seed, RAYS_STREAM), 0};
+    struct writer head = {out, dice_from(request->seed, RAYS_STREAM), 0, world.dark};
     struct ray_list rays = {NULL, 0, 0};
     struct placement p = {{{0}}};
     int unbounded = 0;

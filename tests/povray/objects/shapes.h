@@ -3,7 +3,10 @@
  * Every type of object that POV-Ray 3.7 knows, each about as large as the unit sphere.
  *
  * What is left out, and why: `evaluate` of isosurfaces, as POV-Ray's test of such an object changes
- * it, so that its answers depend on how often it was asked.
+ * it, so that its answers depend on how often it was asked. Functions of hypercomplex julia_fractals
+ * are left out where there are lights: their bisection looks at other points than their search
+ * (Iteration_HCompl_Func takes y for z), a ray has hundreds of hits on one, a shadow ray takes them
+ * one by one, for hours.
  */
 #ifndef OBJECTS_SHAPES_H
 #define OBJECTS_SHAPES_H

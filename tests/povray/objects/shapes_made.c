@@ -386,7 +386,8 @@ void write_julia_fractal(struct writer *w)
     static const char *const kinds[] = {"quaternion sqr",    "quaternion cube",  "hypercomplex sqr",
                                         "hypercomplex cube", "hypercomplex exp", "hypercomplex sin",
                                         "hypercomplex pwr(2, 0)"};
-    const char *kind = PICK(w, kinds);
+    const int safe = 4, all = sizeof kinds / sizeof kinds[0];
+    const char *kind = pick(w, kinds, w->dark ? all : safe);
 
     write_pattern(w, "julia_fractal { <@s, @s, @s, @s / 5> ");
     write_text(w, "%s max_iteration %d precision 15", kind, draw_count(w, 2, 7));

@@ -15,8 +15,7 @@ struct placement {
 struct world {
     double scale;     /* size of its objects */
     bool mixed;       /* objects of all sizes instead */
-    bool dark;        /* no lights: the world is so large that a shadow ray meets one and the same
-                         surface for hours, as its solver errs by more than the ray steps on */
+    bool dark;        /* without lights */
     bool photons;
     double offset[3]; /* where its middle is */
 };

@@ -14,6 +14,7 @@ struct writer {
     FILE *out; /* NULL: write nothing */
     struct dice dice;
     int budget; /* shapes that the object may still have */
+    bool dark;  /* the scene has no lights */
 };
 
 /* Writes a pattern. Within it,
