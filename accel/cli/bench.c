@@ -25,7 +25,7 @@ enum {
     FLAG_CSV
 };
 
-static const accel_flag flags[] = {
+static const struct flag flags[] = {
     [FLAG_CONFIG] = {"accelerator", 'a', "CONFIG",
                      "structure, may be repeated (default: every kind but linear, and each\n"
                      "in all its forms)"},
@@ -48,22 +48,22 @@ enum { JUDGING_TESTS = 50000000, FEWEST_JUDGED = 200 };
 
 /* What was asked for. */
 typedef struct request {
-    const accel_command *command;
-    accel_scene_names scenes;
-    accel_configs configs;
-    accel_forms forms; /* where no config is given */
-    bool sets[ACCEL_SETS];
+    const struct command *command;
+    struct scene_names scenes;
+    struct configs configs;
+    struct forms forms; /* where no config is given */
+    bool sets[SETS];
     uint64_t count, repeats, pilot;
     uint64_t judged; /* 0: as many as is quick */
     bool peers, quiet;
     bool csv;             /* figures are asked for */
     const char *csv_name; /* where; NULL: on standard output */
-    accel_bench_output output;
+    struct bench_output output;
 } request;
 
 /* ------------------------------------------------------------- our structures ---- */
 
-static size_t trace_ours(const accel_contender *c, const accel_ray_set *set)
+static size_t trace_ours(const struct bench_contender *c, const struct ray_set *set)
 {
     size_t found = 0;
     accel_hit hit;
@@ -74,17 +74,17 @@ static size_t trace_ours(const accel_contender *c, const accel_ray_set *set)
     return found;
 }
 
-static void end_ours(accel_contender *c)
+static void end_ours(struct bench_contender *c)
 {
     accel_free(c->state);
 }
 
 /* Every so many-th ray of each kind, for auto. */
-static bool make_pilot(const accel_bench *b, uint64_t each, accel_hooks *hooks)
+static bool make_pilot(const struct bench *b, uint64_t each, accel_hooks *hooks)
 {
-    accel_ray *rays = malloc(ACCEL_SETS * (each + 1) * sizeof *rays);
+    accel_ray *rays = malloc(SETS * (each + 1) * sizeof *rays);
     hooks->pilot = rays;
-    for (int s = 0; s < ACCEL_SETS && rays != NULL; s++) {
+    for (int s = 0; s < SETS && rays != NULL; s++) {
         const size_t count = b->sets[s].count < each ? b->sets[s].count : each;
         for (size_t i = 0; i < count; i++) {
             rays[hooks->pilot_count++] = b->sets[s].rays[i * b->sets[s].count / count];
@@ -93,25 +93,25 @@ static bool make_pilot(const accel_bench *b, uint64_t each, accel_hooks *hooks)
     return rays != NULL;
 }
 
-static bool make_ours(accel_contender *c, const char *config, const accel_bench *b,
+static bool make_ours(struct bench_contender *c, const char *config, const struct bench *b,
                       const accel_hooks *hooks, const request *r)
 {
     accel *a;
     accel_error error;
-    const double start = accel_machine_seconds_of_all();
+    const double start = machine_seconds_of_all();
     if (accel_build(&a, &b->loaded.scene, config, hooks, &error) != ACCEL_OK) {
-        accel_complain(r->command, "%s", error.text);
+        complain(r->command, "%s", error.text);
         return false;
     }
-    const double seconds = accel_machine_seconds_of_all() - start;
+    const double seconds = machine_seconds_of_all() - start;
     accel_info info;
     accel_describe(a, &info);
-    *c = (accel_contender){.state = a,
-                           .kind = info.kind,
-                           .build_seconds = seconds,
-                           .bytes = (double)info.bytes,
-                           .trace = trace_ours,
-                           .end = end_ours};
+    *c = (struct bench_contender){.state = a,
+                                  .kind = info.kind,
+                                  .build_seconds = seconds,
+                                  .bytes = (double)info.bytes,
+                                  .trace = trace_ours,
+                                  .end = end_ours};
     snprintf(c->name, sizeof c->name, "%.63s", config);
     return true;
 }
@@ -131,36 +131,35 @@ static bool has_kind(const char *name)
 }
 
 /* The rays, and what is to be known of them. */
-static bool make_sets(accel_bench *b, const request *r, accel_progress *progress)
+static bool make_sets(struct bench *b, const request *r, struct progress *progress)
 {
     b->reference_name = has_kind("bvh") ? "bvh" : ACCEL_DEFAULT_CONFIG;
-    b->reference = accel_open_structure(&b->loaded, b->reference_name, r->command, progress);
-    for (int s = 0; s < ACCEL_SETS && b->reference != NULL; s++) {
-        if (r->sets[s] &&
-            !accel_make_set(&b->sets[s], s, r->count, b->reference, &b->loaded.scene)) {
-            accel_complain(r->command, "no memory for %" PRIu64 " rays", r->count);
+    b->reference = open_structure(&b->loaded, b->reference_name, r->command, progress);
+    for (int s = 0; s < SETS && b->reference != NULL; s++) {
+        if (r->sets[s] && !make_set(&b->sets[s], s, r->count, b->reference, &b->loaded.scene)) {
+            complain(r->command, "no memory for %" PRIu64 " rays", r->count);
             return false;
         }
     }
     return b->reference != NULL;
 }
 
-static void make_peers(accel_bench *b)
+static void make_peers(struct bench *b)
 {
     accel_box box;
-    accel_scene_box(&b->loaded.scene, &box);
+    scene_box(&b->loaded.scene, &box);
     const double length = sqrt(pow(box.hi[0] - box.lo[0], 2) + pow(box.hi[1] - box.lo[1], 2) +
                                pow(box.hi[2] - box.lo[2], 2));
-    b->count += accel_bench_peers(b->at + b->count, &b->loaded.scene, length);
+    b->count += bench_peers(b->at + b->count, &b->loaded.scene, length);
 }
 
-static bool make_contenders(accel_bench *b, const request *r, accel_progress *progress)
+static bool make_contenders(struct bench *b, const request *r, struct progress *progress)
 {
-    accel_hooks hooks = {.user = progress, .progress = accel_progress_build};
-    b->at = calloc(r->configs.count + ACCEL_MOST_PEERS, sizeof *b->at);
+    accel_hooks hooks = {.user = progress, .progress = progress_build};
+    b->at = calloc(r->configs.count + MOST_PEERS, sizeof *b->at);
     bool fine = b->at != NULL && make_pilot(b, r->pilot, &hooks);
     if (!fine) {
-        accel_complain(r->command, "no memory for %zu contenders", r->configs.count);
+        complain(r->command, "no memory for %zu contenders", r->configs.count);
     }
     for (size_t i = 0; i < r->configs.count && fine; i++) {
         progress->what = r->configs.items[i];
@@ -168,7 +167,7 @@ static bool make_contenders(accel_bench *b, const request *r, accel_progress *pr
         b->count += fine;
     }
     progress->what = NULL;
-    accel_progress_clear(progress);
+    progress_clear(progress);
     if (fine && r->peers) {
         make_peers(b);
     }
@@ -176,65 +175,65 @@ static bool make_contenders(accel_bench *b, const request *r, accel_progress *pr
     return fine;
 }
 
-static void end_bench(accel_bench *b)
+static void end_bench(struct bench *b)
 {
     for (size_t c = 0; c < b->count; c++) {
         b->at[c].end(&b->at[c]);
     }
-    for (int s = 0; s < ACCEL_SETS; s++) {
-        accel_free_set(&b->sets[s]);
+    for (int s = 0; s < SETS; s++) {
+        free_set(&b->sets[s]);
     }
     free(b->at);
     accel_free(b->reference);
-    accel_unload_scene(&b->loaded);
+    unload_scene(&b->loaded);
 }
 
 /* How many rays of each kind linear judges. */
-static size_t judged_count(const request *r, const accel_bench *b)
+static size_t judged_count(const request *r, const struct bench *b)
 {
-    const uint64_t primitives = accel_scene_primitives(&b->loaded.scene) + 1;
+    const uint64_t primitives = scene_primitives(&b->loaded.scene) + 1;
     const uint64_t quick = JUDGING_TESTS / primitives;
     return r->judged > 0 ? r->judged : quick > FEWEST_JUDGED ? quick : FEWEST_JUDGED;
 }
 
-static int run_made(request *r, accel_bench *b, accel_progress *progress)
+static int run_made(request *r, struct bench *b, struct progress *progress)
 {
-    accel *linear = accel_open_structure(&b->loaded, "linear", r->command, progress);
+    accel *linear = open_structure(&b->loaded, "linear", r->command, progress);
     if (linear == NULL) {
-        return ACCEL_EXIT_BAD;
+        return EXIT_BAD;
     }
-    const bool agrees = accel_bench_judge(b, linear, judged_count(r, b), progress);
+    const bool agrees = bench_judge(b, linear, judged_count(r, b), progress);
     accel_free(linear);
-    if (!agrees || !accel_bench_time(b, progress)) {
-        return ACCEL_EXIT_DIFFERENT;
+    if (!agrees || !bench_time(b, progress)) {
+        return EXIT_DIFFERENT;
     }
-    accel_bench_print(&r->output, b);
-    return ACCEL_EXIT_FINE;
+    bench_print(&r->output, b);
+    return EXIT_FINE;
 }
 
 static int run_scene(request *r, const char *name)
 {
-    accel_progress progress = accel_progress_start(r->quiet);
-    accel_bench b = {.scene_name = name, .repeats = (unsigned)r->repeats, .asked = r->count};
-    if (!accel_open_scene(&b.loaded, name, r->command, &progress)) {
-        return ACCEL_EXIT_BAD;
+    struct progress progress = progress_start(r->quiet);
+    struct bench b = {.scene_name = name, .repeats = (unsigned)r->repeats, .asked = r->count};
+    if (!open_scene(&b.loaded, name, r->command, &progress)) {
+        return EXIT_BAD;
     }
     const int code = make_sets(&b, r, &progress) && make_contenders(&b, r, &progress)
                          ? run_made(r, &b, &progress)
-                         : ACCEL_EXIT_BAD;
+                         : EXIT_BAD;
     end_bench(&b);
     return code;
 }
 
 static int run_scenes(request *r)
 {
-    int worst = ACCEL_EXIT_FINE;
-    for (size_t i = 0; i < r->scenes.count && worst != ACCEL_EXIT_BAD; i++) {
+    int worst = EXIT_FINE;
+    for (size_t i = 0; i < r->scenes.count && worst != EXIT_BAD; i++) {
         const int code = run_scene(r, r->scenes.items[i]);
         worst = code > worst ? code : worst;
         fflush(stdout);
     }
-    accel_bench_print_sum(&r->output);
+    bench_print_sum(&r->output);
     return worst;
 }
 
@@ -247,13 +246,13 @@ static int run_into_file(request *r)
         r->output.csv = r->csv ? stdout : NULL;
         return run_scenes(r);
     }
-    accel_output output;
+    struct output output;
     accel_error error;
-    if (!accel_output_open(&output, r->csv_name, &error)) {
-        return accel_complain(r->command, "%s", error.text);
+    if (!output_open(&output, r->csv_name, &error)) {
+        return complain(r->command, "%s", error.text);
     }
     r->output.csv = output.file;
-    return accel_end_output(&output, run_scenes(r), ACCEL_EXIT_FINE, r->command);
+    return end_output(&output, run_scenes(r), EXIT_FINE, r->command);
 }
 
 /* ------------------------------------------------------------------ arguments ---- */
@@ -265,15 +264,15 @@ static bool read_sets(request *r, const char *list)
     while (true) {
         const size_t length = strcspn(list, ",");
         int s = 0;
-        while (s < ACCEL_SETS && (strlen(accel_set_names[s]) != length ||
-                                  memcmp(accel_set_names[s], list, length) != 0)) {
+        while (s < SETS &&
+               (strlen(set_names[s]) != length || memcmp(set_names[s], list, length) != 0)) {
             s++;
         }
-        if (s == ACCEL_SETS) {
-            accel_complain(r->command,
-                           "--rays: '%.*s' is no kind of rays; primary, bounce, shadow and photon "
-                           "are",
-                           (int)(length < 40 ? length : 40), list);
+        if (s == SETS) {
+            complain(r->command,
+                     "--rays: '%.*s' is no kind of rays; primary, bounce, shadow and photon "
+                     "are",
+                     (int)(length < 40 ? length : 40), list);
             return false;
         }
         r->sets[s] = true;
@@ -291,35 +290,35 @@ static bool is_form(const accel_option *option)
 }
 
 /* A word behind a bare --csv may be meant as its file: it is a scene only where it cannot be. */
-static bool add_scene(const accel_arguments *a, request *r)
+static bool add_scene(const struct arguments *a, request *r)
 {
     accel_error error;
-    if (a->declined && (access(a->value, F_OK) == 0 || !accel_scene_understood(a->value, &error))) {
-        accel_complain(r->command,
-                       "'%.100s' behind --csv does not end in .csv and is no built-in scene; to "
-                       "write to it say --csv=%.100s, to read it put it in front of --csv",
-                       a->value, a->value);
+    if (a->declined && (access(a->value, F_OK) == 0 || !scene_understood(a->value, &error))) {
+        complain(r->command,
+                 "'%.100s' behind --csv does not end in .csv and is no built-in scene; to "
+                 "write to it say --csv=%.100s, to read it put it in front of --csv",
+                 a->value, a->value);
         return false;
     }
-    return accel_scene_names_add(&r->scenes, a->value, r->command);
+    return scene_names_add(&r->scenes, a->value, r->command);
 }
 
-static bool take(accel_arguments *a, int flag, void *user)
+static bool take(struct arguments *a, int flag, void *user)
 {
     request *r = user;
     switch (flag) {
     case FLAG_CONFIG:
-        return accel_configs_add(&r->configs, a->value, r->command);
+        return configs_add(&r->configs, a->value, r->command);
     case FLAG_RAYS:
         return read_sets(r, a->value);
     case FLAG_COUNT:
-        return accel_whole_argument(a, flag, 1, 100000000, &r->count);
+        return whole_argument(a, flag, 1, 100000000, &r->count);
     case FLAG_REPEATS:
-        return accel_whole_argument(a, flag, 1, ACCEL_MOST_REPEATS_BENCH, &r->repeats);
+        return whole_argument(a, flag, 1, MOST_REPEATS_BENCH, &r->repeats);
     case FLAG_JUDGED:
-        return accel_whole_argument(a, flag, 1, 100000000, &r->judged);
+        return whole_argument(a, flag, 1, 100000000, &r->judged);
     case FLAG_PILOT:
-        return accel_whole_argument(a, flag, 0, 1000000, &r->pilot);
+        return whole_argument(a, flag, 0, 1000000, &r->pilot);
     case FLAG_PEERS:
         r->peers = true;
         return true;
@@ -332,32 +331,32 @@ static bool take(accel_arguments *a, int flag, void *user)
     }
 }
 
-static int run(const accel_command *command, int argc, char **argv)
+static int run(const struct command *command, int argc, char **argv)
 {
-    accel_arguments arguments = accel_arguments_start(command, argc, argv);
+    struct arguments arguments = arguments_start(command, argc, argv);
     request r = {.command = command,
                  .sets = {true, true, true, true},
                  .count = 100000,
                  .repeats = 5,
                  .pilot = 64};
-    if (!accel_take_arguments(&arguments, take, &r)) {
+    if (!take_arguments(&arguments, take, &r)) {
         return arguments.exit_code;
     }
     if (r.scenes.count == 0) {
-        return accel_complain(command, "no SCENE is given; usage: accel %s %s", command->name,
-                              command->arguments);
+        return complain(command, "no SCENE is given; usage: accel %s %s", command->name,
+                        command->arguments);
     }
     r.quiet = arguments.quiet;
     if (r.configs.count == 0) {
-        r.forms = accel_forms_of_kinds(is_form);
-        if (!accel_configs_add_forms(&r.configs, &r.forms, command)) {
-            return ACCEL_EXIT_BAD;
+        r.forms = forms_of_kinds(is_form);
+        if (!configs_add_forms(&r.configs, &r.forms, command)) {
+            return EXIT_BAD;
         }
     }
     return run_into_file(&r);
 }
 
-const accel_command accel_command_bench = {
+const struct command command_bench = {
     .name = "bench",
     .arguments = "SCENE... [-a CONFIG]... [--rays LIST] [--peers] [--csv [FILE.csv]]",
     .summary = "time structures, and Embree, on the same rays",

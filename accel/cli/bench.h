@@ -9,33 +9,33 @@
 
 #include <stdio.h>
 
-enum { ACCEL_MOST_REPEATS_BENCH = 51, ACCEL_MOST_PEERS = 4 };
+enum { MOST_REPEATS_BENCH = 51, MOST_PEERS = 4 };
 
 /* The kinds of rays. */
-enum { ACCEL_SET_PRIMARY, ACCEL_SET_BOUNCE, ACCEL_SET_SHADOW, ACCEL_SET_PHOTON, ACCEL_SETS };
+enum { SET_PRIMARY, SET_BOUNCE, SET_SHADOW, SET_PHOTON, SETS };
 
 /* Rays of one kind, and what they hit. */
-typedef struct accel_ray_set {
+struct ray_set {
     const char *name;
     bool any;        /* asked by accel_any, else by accel_closest */
     size_t count;    /* rays */
     accel_ray *rays; /* owned */
     accel_hit *hits; /* the answers, owned; geom is ACCEL_NONE for a miss */
     size_t found;    /* rays that hit something */
-} accel_ray_set;
+};
 
 /* The names of the kinds of rays, in their order. */
-extern const char *const accel_set_names[ACCEL_SETS];
+extern const char *const set_names[SETS];
 
 /* Fills set->rays with up to `count` rays of kind `which`; `a` traces what must be known to make
  * them. Fills the answers as well. False: no memory. */
-bool accel_make_set(accel_ray_set *set, int which, size_t count, const accel *a,
-                    const accel_scene *scene);
+bool make_set(struct ray_set *set, int which, size_t count, const accel *a,
+              const accel_scene *scene);
 
-void accel_free_set(accel_ray_set *set);
+void free_set(struct ray_set *set);
 
 /* One that takes part: one of our structures or a peer. */
-typedef struct accel_contender {
+struct bench_contender {
     char name[64];        /* config or peer */
     const char *kind;     /* what auto has become; ours only */
     bool peer;            /* not ours: single precision, its answers are counted, not judged */
@@ -43,47 +43,46 @@ typedef struct accel_contender {
     double build_seconds; /* processor time */
     double bytes;         /* held */
     /* Traces all rays of the set; returns how many hit. What is timed. */
-    size_t (*trace)(const struct accel_contender *c, const accel_ray_set *set);
+    size_t (*trace)(const struct bench_contender *c, const struct ray_set *set);
     /* The primitive that ray `i` hits, or ACCEL_NONE in geom. */
-    accel_id (*ask)(const struct accel_contender *c, const accel_ray_set *set, size_t i);
-    void (*end)(struct accel_contender *c);
-    double ns[ACCEL_SETS]
-             [ACCEL_MOST_REPEATS_BENCH];         /* per ray, processor time; sorted in the end */
-    double nodes[ACCEL_SETS], tests[ACCEL_SETS]; /* per ray; ours only */
-    size_t wrong[ACCEL_SETS]; /* answers with another primitive than ours; peers only */
-} accel_contender;
+    accel_id (*ask)(const struct bench_contender *c, const struct ray_set *set, size_t i);
+    void (*end)(struct bench_contender *c);
+    double ns[SETS][MOST_REPEATS_BENCH]; /* per ray, processor time; sorted in the end */
+    double nodes[SETS], tests[SETS];     /* per ray; ours only */
+    size_t wrong[SETS];                  /* answers with another primitive than ours; peers only */
+};
 
-/* Makes the peers that this build knows, at most ACCEL_MOST_PEERS; returns how many. */
-size_t accel_bench_peers(accel_contender *peers, const accel_scene *scene, double length);
+/* Makes the peers that this build knows, at most MOST_PEERS; returns how many. */
+size_t bench_peers(struct bench_contender *peers, const accel_scene *scene, double length);
 
 /* Why there are no peers in this build, or NULL. */
-const char *accel_bench_no_peers(void);
+const char *bench_no_peers(void);
 
 /* All of one scene. */
-typedef struct accel_bench {
+struct bench {
     const char *scene_name;
-    accel_loaded loaded;
-    const char *reference_name;     /* config whose answers all are compared with */
-    accel *reference;               /* the structure of it; also makes the rays */
-    size_t judged;                  /* rays of each kind that linear has judged, at most */
-    uint64_t asked;                 /* rays of each kind that were asked for */
-    accel_ray_set sets[ACCEL_SETS]; /* count 0: not asked for */
-    accel_contender *at;            /* count of them */
+    struct loaded loaded;
+    const char *reference_name; /* config whose answers all are compared with */
+    accel *reference;           /* the structure of it; also makes the rays */
+    size_t judged;              /* rays of each kind that linear has judged, at most */
+    uint64_t asked;             /* rays of each kind that were asked for */
+    struct ray_set sets[SETS];  /* count 0: not asked for */
+    struct bench_contender *at; /* count of them */
     size_t count;
     unsigned repeats;
-} accel_bench;
+};
 
 /* Judges every answer of our structures: against the reference's, and that against linear for
  * `sample` rays of each set. Counts nodes, tests and the peers' other answers. Prints the first
  * difference and returns false if there is one. */
-bool accel_bench_judge(accel_bench *bench, const accel *linear, size_t sample,
-                       accel_progress *progress);
+bool bench_judge(struct bench *bench, const accel *linear, size_t sample,
+                 struct progress *progress);
 
 /* Times all, taking turns. False where a structure found another number of hits than before. */
-bool accel_bench_time(accel_bench *bench, accel_progress *progress);
+bool bench_time(struct bench *bench, struct progress *progress);
 
 /* What is printed of all scenes. */
-typedef struct accel_bench_output {
+struct bench_output {
     bool table;                      /* tables go to standard output */
     bool peers;                      /* were asked for */
     bool headed;                     /* the heads have been printed */
@@ -91,15 +90,15 @@ typedef struct accel_bench_output {
     double regret_sum, regret_worst; /* of auto over the scenes */
     size_t regret_count;             /* scenes where it was measured */
     const char *regret_scene;        /* the worst */
-} accel_bench_output;
+};
 
 /* Prints one scene, judged and timed. */
-void accel_bench_print(accel_bench_output *output, const accel_bench *bench);
+void bench_print(struct bench_output *output, const struct bench *bench);
 
 /* Prints the regret over all scenes. */
-void accel_bench_print_sum(const accel_bench_output *output);
+void bench_print_sum(const struct bench_output *output);
 
 /* Quantile 0..1 of the times of contender c in set s. */
-double accel_bench_ns(const accel_bench *bench, size_t c, int set, double part);
+double bench_ns(const struct bench *bench, size_t c, int set, double part);
 
 #endif

@@ -4,7 +4,7 @@
  */
 #include "bench.h"
 
-size_t accel_bench_peers(accel_contender *peers, const accel_scene *scene, double length)
+size_t bench_peers(struct bench_contender *peers, const accel_scene *scene, double length)
 {
     (void)peers;
     (void)scene;
@@ -12,7 +12,7 @@ size_t accel_bench_peers(accel_contender *peers, const accel_scene *scene, doubl
     return 0;
 }
 
-const char *accel_bench_no_peers(void)
+const char *bench_no_peers(void)
 {
     return "this build has no peers: libembree-dev was not there when it was configured";
 }

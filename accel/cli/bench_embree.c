@@ -33,7 +33,7 @@ static void add_triangles(peer *p, const accel_triangles *t, enum RTCBuildQualit
     for (uint32_t i = 0; i < t->count; i++) {
         for (uint32_t corner = 0; corner < 3; corner++) {
             double vertex[3];
-            accel_scene_vertex(t, i, (int)corner, vertex);
+            scene_vertex(t, i, (int)corner, vertex);
             abc[3 * (size_t)i + corner] = 3 * i + corner;
             for (size_t k = 0; k < 3; k++) {
                 xyz[9 * (size_t)i + 3 * corner + k] = (float)vertex[k];
@@ -53,7 +53,7 @@ static void add_spheres(peer *p, const accel_spheres *s, enum RTCBuildQuality qu
                                           4 * sizeof(float), s->count);
     for (uint32_t i = 0; i < s->count; i++) {
         for (size_t k = 0; k < 4; k++) {
-            xyzr[4 * (size_t)i + k] = (float)accel_scene_sphere(s, i)[k];
+            xyzr[4 * (size_t)i + k] = (float)scene_sphere(s, i)[k];
         }
     }
     rtcSetGeometryBuildQuality(g, quality);
@@ -103,7 +103,7 @@ static accel_id intersect(const peer *p, const accel_ray *ray)
     return (accel_id){r.hit.geomID, r.hit.primID};
 }
 
-static size_t trace(const accel_contender *c, const accel_ray_set *set)
+static size_t trace(const struct bench_contender *c, const struct ray_set *set)
 {
     size_t found = 0;
     for (size_t i = 0; i < set->count; i++) {
@@ -113,7 +113,7 @@ static size_t trace(const accel_contender *c, const accel_ray_set *set)
     return found;
 }
 
-static accel_id ask(const accel_contender *c, const accel_ray_set *set, size_t i)
+static accel_id ask(const struct bench_contender *c, const struct ray_set *set, size_t i)
 {
     if (!set->any) {
         return intersect(c->state, &set->rays[i]);
@@ -122,7 +122,7 @@ static accel_id ask(const accel_contender *c, const accel_ray_set *set, size_t i
     return (accel_id){geom, 0};
 }
 
-static void end(accel_contender *c)
+static void end(struct bench_contender *c)
 {
     peer *p = c->state;
     rtcReleaseScene(p->scene);
@@ -138,7 +138,7 @@ static bool count_bytes(void *user, ssize_t bytes, bool post)
     return true;
 }
 
-static bool make_peer(accel_contender *c, const accel_scene *scene, double length, bool high,
+static bool make_peer(struct bench_contender *c, const accel_scene *scene, double length, bool high,
                       bool robust)
 {
     peer *p = malloc(sizeof *p);
@@ -147,7 +147,7 @@ static bool make_peer(accel_contender *c, const accel_scene *scene, double lengt
         return false;
     }
     const enum RTCBuildQuality quality = high ? RTC_BUILD_QUALITY_HIGH : RTC_BUILD_QUALITY_MEDIUM;
-    *c = (accel_contender){.peer = true, .state = p, .trace = trace, .ask = ask, .end = end};
+    *c = (struct bench_contender){.peer = true, .state = p, .trace = trace, .ask = ask, .end = end};
     snprintf(c->name, sizeof c->name, "Embree %d.%d %s%s", RTC_VERSION_MAJOR, RTC_VERSION_MINOR,
              high ? "high" : "medium", robust ? " robust" : "");
     rtcSetDeviceMemoryMonitorFunction(p->device, count_bytes, &c->bytes);
@@ -155,7 +155,7 @@ static bool make_peer(accel_contender *c, const accel_scene *scene, double lengt
     p->scene = rtcNewScene(p->device);
     rtcSetSceneBuildQuality(p->scene, quality);
     rtcSetSceneFlags(p->scene, robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
-    const double start = accel_machine_seconds_of_all();
+    const double start = machine_seconds_of_all();
     for (uint32_t g = 0; g < scene->count; g++) {
         const accel_geometry *from = &scene->geometries[g];
         if (from->type == ACCEL_TRIANGLES) {
@@ -165,20 +165,20 @@ static bool make_peer(accel_contender *c, const accel_scene *scene, double lengt
         }
     }
     rtcCommitScene(p->scene);
-    c->build_seconds = accel_machine_seconds_of_all() - start;
+    c->build_seconds = machine_seconds_of_all() - start;
     return true;
 }
 
-size_t accel_bench_peers(accel_contender *peers, const accel_scene *scene, double length)
+size_t bench_peers(struct bench_contender *peers, const accel_scene *scene, double length)
 {
     size_t made = 0;
-    for (unsigned i = 0; i < ACCEL_MOST_PEERS; i++) {
+    for (unsigned i = 0; i < MOST_PEERS; i++) {
         made += make_peer(&peers[made], scene, length, i & 1, i >> 1);
     }
     return made;
 }
 
-const char *accel_bench_no_peers(void)
+const char *bench_no_peers(void)
 {
     return NULL;
 }

@@ -14,7 +14,7 @@
 
 #include <stdlib.h>
 
-const char *const accel_set_names[ACCEL_SETS] = {"primary", "bounce", "shadow", "photon"};
+const char *const set_names[SETS] = {"primary", "bounce", "shadow", "photon"};
 
 /* What the makers of rays share. */
 typedef struct maker {
@@ -22,15 +22,15 @@ typedef struct maker {
     const accel_scene *scene;
     accel_box box;
     double diagonal;
-    accel_camera camera;
+    struct camera camera;
 } maker;
 
 /* A cosine-weighted direction around a unit normal: a point of the unit sphere around its tip
  * (Lambert's law; see Shirley, Wang and Zimmerman, ACM TOG 15(1), 1996). */
-static void diffuse(accel_random *random, const double normal[3], double out[3])
+static void diffuse(struct random *random, const double normal[3], double out[3])
 {
-    const double z = accel_random_in(random, -1.0, 1.0);
-    const double angle = accel_random_in(random, 0.0, 6.283185307179586);
+    const double z = random_in(random, -1.0, 1.0);
+    const double angle = random_in(random, 0.0, 6.283185307179586);
     const double r = sqrt(fmax(0.0, 1.0 - z * z));
     out[0] = normal[0] + r * cos(angle);
     out[1] = normal[1] + r * sin(angle);
@@ -40,20 +40,20 @@ static void diffuse(accel_random *random, const double normal[3], double out[3])
     }
 }
 
-static accel_ray primary(const maker *m, accel_random *random)
+static accel_ray primary(const maker *m, struct random *random)
 {
-    const double i = accel_random_in(random, -0.5, m->camera.width - 0.5);
-    const double j = accel_random_in(random, -0.5, m->camera.height - 0.5);
-    return accel_camera_ray(&m->camera, i, j);
+    const double i = random_in(random, -0.5, m->camera.width - 0.5);
+    const double j = random_in(random, -0.5, m->camera.height - 0.5);
+    return camera_ray(&m->camera, i, j);
 }
 
 /* From anywhere above the box, downwards. */
-static accel_ray emitted(const maker *m, accel_random *random)
+static accel_ray emitted(const maker *m, struct random *random)
 {
     static const double down[3] = {0.0, -1.0, 0.0};
     double from[3], towards[3];
     for (int k = 0; k < 3; k++) {
-        from[k] = accel_random_in(random, m->box.lo[k], m->box.hi[k]);
+        from[k] = random_in(random, m->box.lo[k], m->box.hi[k]);
     }
     from[1] = m->box.hi[1] + 0.25 * m->diagonal;
     diffuse(random, down, towards);
@@ -61,14 +61,14 @@ static accel_ray emitted(const maker *m, accel_random *random)
 }
 
 /* Goes on from where a ray hit. */
-static accel_ray leave(const accel_surface *s, const accel_hit *hit, const double dir[3])
+static accel_ray leave(const struct surface *s, const accel_hit *hit, const double dir[3])
 {
     accel_ray ray = accel_ray_from(s->at, dir);
     ray.skip = (accel_id){hit->geom, hit->prim};
     return ray;
 }
 
-static accel_ray shadow(const maker *m, const accel_surface *s, const accel_hit *hit)
+static accel_ray shadow(const maker *m, const struct surface *s, const accel_hit *hit)
 {
     double light[3], towards[3];
     for (int k = 0; k < 3; k++) {
@@ -85,21 +85,21 @@ static accel_ray shadow(const maker *m, const accel_surface *s, const accel_hit 
  * misses. */
 static bool make(const maker *m, int which, uint64_t i, accel_ray *out)
 {
-    accel_random random = accel_random_start(1, 77, i);
-    const bool photon = which == ACCEL_SET_PHOTON;
+    struct random random = random_start(1, 77, i);
+    const bool photon = which == SET_PHOTON;
     const accel_ray first = photon ? emitted(m, &random) : primary(m, &random);
     *out = first;
-    if (which == ACCEL_SET_PRIMARY || (photon && i % 2 == 0)) {
+    if (which == SET_PRIMARY || (photon && i % 2 == 0)) {
         return true;
     }
     accel_hit hit;
     if (!accel_closest(m->a, &first, &hit, NULL)) {
         return false;
     }
-    const accel_surface s = accel_surface_at(m->scene, &first, &hit);
+    const struct surface s = surface_at(m->scene, &first, &hit);
     double towards[3];
     diffuse(&random, s.normal, towards);
-    *out = which == ACCEL_SET_SHADOW ? shadow(m, &s, &hit) : leave(&s, &hit, towards);
+    *out = which == SET_SHADOW ? shadow(m, &s, &hit) : leave(&s, &hit, towards);
     return true;
 }
 
@@ -107,22 +107,22 @@ static maker make_maker(const accel *a, const accel_scene *scene)
 {
     maker m = {.a = a, .scene = scene};
     double size[3], eye[3], at[3];
-    accel_scene_box(scene, &m.box);
+    scene_box(scene, &m.box);
     vector_subtract(size, m.box.hi, m.box.lo);
     m.diagonal = sqrt(vector_dot(size, size));
-    accel_camera_frame(&m.box, eye, at);
-    accel_camera_make(&m.camera, eye, at, 40.0, 512, 512);
+    camera_frame(&m.box, eye, at);
+    camera_make(&m.camera, eye, at, 40.0, 512, 512);
     return m;
 }
 
-bool accel_make_set(accel_ray_set *set, int which, size_t count, const accel *a,
-                    const accel_scene *scene)
+bool make_set(struct ray_set *set, int which, size_t count, const accel *a,
+              const accel_scene *scene)
 {
     const maker m = make_maker(a, scene);
-    *set = (accel_ray_set){.name = accel_set_names[which],
-                           .any = which == ACCEL_SET_SHADOW,
-                           .rays = malloc(count * sizeof *set->rays),
-                           .hits = malloc(count * sizeof *set->hits)};
+    *set = (struct ray_set){.name = set_names[which],
+                            .any = which == SET_SHADOW,
+                            .rays = malloc(count * sizeof *set->rays),
+                            .hits = malloc(count * sizeof *set->hits)};
     if (set->rays == NULL || set->hits == NULL) {
         return false;
     }
@@ -139,9 +139,9 @@ bool accel_make_set(accel_ray_set *set, int which, size_t count, const accel *a,
     return true;
 }
 
-void accel_free_set(accel_ray_set *set)
+void free_set(struct ray_set *set)
 {
     free(set->rays);
     free(set->hits);
-    *set = (accel_ray_set){0};
+    *set = (struct ray_set){0};
 }

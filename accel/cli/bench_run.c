@@ -14,13 +14,13 @@
 #include <stdio.h>
 #include <string.h>
 
-static bool same(const accel_ray_set *set, size_t i, bool found, const accel_hit *hit)
+static bool same(const struct ray_set *set, size_t i, bool found, const accel_hit *hit)
 {
     const accel_hit *expected = &set->hits[i];
-    return found == (expected->geom != ACCEL_NONE) && (!found || accel_same_hit(expected, hit));
+    return found == (expected->geom != ACCEL_NONE) && (!found || same_hit(expected, hit));
 }
 
-static bool report(const accel_bench *b, const char *name, const accel_ray_set *set, size_t i)
+static bool report(const struct bench *b, const char *name, const struct ray_set *set, size_t i)
 {
     const accel_ray *r = &set->rays[i];
     printf(
@@ -31,9 +31,10 @@ static bool report(const accel_bench *b, const char *name, const accel_ray_set *
 }
 
 /* One of our structures, on all rays of a set. */
-static bool judge_structure(accel_bench *b, accel_contender *c, int s, const accel *a, size_t step)
+static bool judge_structure(struct bench *b, struct bench_contender *c, int s, const accel *a,
+                            size_t step)
 {
-    const accel_ray_set *set = &b->sets[s];
+    const struct ray_set *set = &b->sets[s];
     accel_query query = {0};
     size_t asked = 0;
     for (size_t i = 0; i < set->count; i += step, asked++) {
@@ -52,9 +53,9 @@ static bool judge_structure(accel_bench *b, accel_contender *c, int s, const acc
 }
 
 /* A peer's answers: another primitive, a hit for a miss or a miss for a hit. */
-static void count_wrong(const accel_bench *b, accel_contender *c, int s)
+static void count_wrong(const struct bench *b, struct bench_contender *c, int s)
 {
-    const accel_ray_set *set = &b->sets[s];
+    const struct ray_set *set = &b->sets[s];
     c->wrong[s] = 0;
     for (size_t i = 0; i < set->count; i++) {
         const accel_id got = c->ask(c, set, i);
@@ -67,21 +68,21 @@ static void count_wrong(const accel_bench *b, accel_contender *c, int s)
     }
 }
 
-bool accel_bench_judge(accel_bench *b, const accel *linear, size_t sample, accel_progress *progress)
+bool bench_judge(struct bench *b, const accel *linear, size_t sample, struct progress *progress)
 {
-    for (int s = 0; s < ACCEL_SETS; s++) {
+    for (int s = 0; s < SETS; s++) {
         const size_t count = b->sets[s].count;
         const size_t step = count > sample ? count / sample : 1;
         const size_t judged = (count + step - 1) / step;
         b->judged = judged > b->judged ? judged : b->judged;
         progress->what = "linear";
-        accel_progress_show(progress, b->sets[s].name, -1.0);
+        progress_show(progress, b->sets[s].name, -1.0);
         if (count > 0 && !judge_structure(b, NULL, s, linear, step)) {
             return false;
         }
         for (size_t c = 0; count > 0 && c < b->count; c++) {
             progress->what = b->at[c].name;
-            accel_progress_show(progress, "judged", -1.0);
+            progress_show(progress, "judged", -1.0);
             if (b->at[c].peer) {
                 count_wrong(b, &b->at[c], s);
             } else if (!judge_structure(b, &b->at[c], s, b->at[c].state, 1)) {
@@ -90,40 +91,39 @@ bool accel_bench_judge(accel_bench *b, const accel *linear, size_t sample, accel
         }
     }
     progress->what = NULL;
-    accel_progress_clear(progress);
+    progress_clear(progress);
     return true;
 }
 
-bool accel_bench_time(accel_bench *b, accel_progress *progress)
+bool bench_time(struct bench *b, struct progress *progress)
 {
     for (unsigned turn = 0; turn < b->repeats; turn++) {
-        for (int s = 0; s < ACCEL_SETS; s++) {
-            const accel_ray_set *set = &b->sets[s];
+        for (int s = 0; s < SETS; s++) {
+            const struct ray_set *set = &b->sets[s];
             for (size_t c = 0; set->count > 0 && c < b->count; c++) {
-                accel_contender *contender = &b->at[c];
-                const double start = accel_machine_seconds();
+                struct bench_contender *contender = &b->at[c];
+                const double start = machine_seconds();
                 const size_t found = contender->trace(contender, set);
-                contender->ns[s][turn] =
-                    1e9 * (accel_machine_seconds() - start) / (double)set->count;
+                contender->ns[s][turn] = 1e9 * (machine_seconds() - start) / (double)set->count;
                 if (!contender->peer && found != set->found) {
                     return report(b, contender->name, set, 0);
                 }
             }
             progress->what = b->scene_name;
-            accel_progress_show(progress, "timed", (turn + s * 0.25) / b->repeats);
+            progress_show(progress, "timed", (turn + s * 0.25) / b->repeats);
         }
     }
     progress->what = NULL;
-    accel_progress_clear(progress);
+    progress_clear(progress);
     for (size_t c = 0; c < b->count; c++) {
-        for (int s = 0; s < ACCEL_SETS; s++) {
-            accel_sort_values(b->at[c].ns[s], b->repeats);
+        for (int s = 0; s < SETS; s++) {
+            sort_values(b->at[c].ns[s], b->repeats);
         }
     }
     return true;
 }
 
-double accel_bench_ns(const accel_bench *b, size_t c, int set, double part)
+double bench_ns(const struct bench *b, size_t c, int set, double part)
 {
-    return accel_quantile(b->at[c].ns[set], b->repeats, part);
+    return quantile(b->at[c].ns[set], b->repeats, part);
 }

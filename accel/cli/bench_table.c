@@ -17,18 +17,18 @@
 static void print_origin(FILE *to)
 {
     char processor[256];
-    accel_machine_processor(processor, sizeof processor);
-    fprintf(to, "# %s\n# %s\n", processor, accel_machine_build());
+    machine_processor(processor, sizeof processor);
+    fprintf(to, "# %s\n# %s\n", processor, machine_build());
 }
 
-static void print_head(const accel_bench *b, bool peers)
+static void print_head(const struct bench *b, bool peers)
 {
     print_origin(stdout);
     printf("# processor time of one thread; ns per ray: median of %u turns (quartiles), at most "
            "%" PRIu64 " rays of each kind\n",
            b->repeats, b->asked);
-    if (peers && accel_bench_no_peers() != NULL) {
-        printf("# %s\n", accel_bench_no_peers());
+    if (peers && bench_no_peers() != NULL) {
+        printf("# %s\n", bench_no_peers());
     } else if (peers) {
         printf("# Embree: single precision, no primitive is skipped; 'other' counts its answers "
                "that name another primitive than ours or none\n");
@@ -44,17 +44,17 @@ static void print_csv_head(FILE *csv)
 
 /* ----------------------------------------------------------------------- table ---- */
 
-static void print_row(const accel_bench *b, size_t c)
+static void print_row(const struct bench *b, size_t c)
 {
-    const accel_contender *x = &b->at[c];
-    const double n = (double)accel_scene_primitives(&b->loaded.scene);
+    const struct bench_contender *x = &b->at[c];
+    const double n = (double)scene_primitives(&b->loaded.scene);
     printf("%-26s %9.1f %7.1f", x->name, 1e3 * x->build_seconds, n > 0 ? x->bytes / n : 0.0);
-    for (int s = 0; s < ACCEL_SETS; s++) {
+    for (int s = 0; s < SETS; s++) {
         if (b->sets[s].count == 0) {
             continue;
         }
-        printf("  %6.0f (%.0f-%.0f)", accel_bench_ns(b, c, s, 0.5), accel_bench_ns(b, c, s, 0.25),
-               accel_bench_ns(b, c, s, 0.75));
+        printf("  %6.0f (%.0f-%.0f)", bench_ns(b, c, s, 0.5), bench_ns(b, c, s, 0.25),
+               bench_ns(b, c, s, 0.75));
         if (x->peer) {
             printf(" other %zu", x->wrong[s]);
         } else {
@@ -64,13 +64,13 @@ static void print_row(const accel_bench *b, size_t c)
     printf("\n");
 }
 
-static void print_table(const accel_bench *b)
+static void print_table(const struct bench *b)
 {
     printf("\n%s: %" PRIu64 " primitives; every answer of ours judged: equal to %s, of each kind "
            "of rays %zu by linear\n",
-           b->scene_name, accel_scene_primitives(&b->loaded.scene), b->reference_name, b->judged);
+           b->scene_name, scene_primitives(&b->loaded.scene), b->reference_name, b->judged);
     printf("%-26s %9s %7s", "", "build ms", "B/prim");
-    for (int s = 0; s < ACCEL_SETS; s++) {
+    for (int s = 0; s < SETS; s++) {
         if (b->sets[s].count > 0) {
             printf("  %s ns nodes+tests", b->sets[s].name);
         }
@@ -81,18 +81,18 @@ static void print_table(const accel_bench *b)
     }
 }
 
-static void print_csv(const accel_bench *b, FILE *csv)
+static void print_csv(const struct bench *b, FILE *csv)
 {
     for (size_t c = 0; c < b->count; c++) {
-        const accel_contender *x = &b->at[c];
-        for (int s = 0; s < ACCEL_SETS; s++) {
+        const struct bench_contender *x = &b->at[c];
+        for (int s = 0; s < SETS; s++) {
             if (b->sets[s].count == 0) {
                 continue;
             }
             fprintf(csv, "\"%s\",\"%s\",%s,%zu,%.6f,%.0f,%.3f,%.3f,%.3f,%.3f,%.3f,%zu\n",
                     b->scene_name, x->name, b->sets[s].name, b->sets[s].count, x->build_seconds,
-                    x->bytes, x->nodes[s], x->tests[s], accel_bench_ns(b, c, s, 0.25),
-                    accel_bench_ns(b, c, s, 0.5), accel_bench_ns(b, c, s, 0.75), x->wrong[s]);
+                    x->bytes, x->nodes[s], x->tests[s], bench_ns(b, c, s, 0.25),
+                    bench_ns(b, c, s, 0.5), bench_ns(b, c, s, 0.75), x->wrong[s]);
         }
     }
 }
@@ -100,13 +100,13 @@ static void print_csv(const accel_bench *b, FILE *csv)
 /* ---------------------------------------------------------------------- regret ---- */
 
 /* Build and AUTO_RAYS rays, an even mix of the kinds that were timed. */
-static double total_seconds(const accel_bench *b, size_t c)
+static double total_seconds(const struct bench *b, size_t c)
 {
     double sum = 0.0;
     int sets = 0;
-    for (int s = 0; s < ACCEL_SETS; s++) {
+    for (int s = 0; s < SETS; s++) {
         if (b->sets[s].count > 0) {
-            sum += accel_bench_ns(b, c, s, 0.5);
+            sum += bench_ns(b, c, s, 0.5);
             sets++;
         }
     }
@@ -114,9 +114,9 @@ static double total_seconds(const accel_bench *b, size_t c)
 }
 
 /* What auto lost by its choice, its own time included, against the best of the others. */
-static void note_regret(accel_bench_output *out, const accel_bench *b)
+static void note_regret(struct bench_output *out, const struct bench *b)
 {
-    const accel_contender *chosen = NULL, *best = NULL;
+    const struct bench_contender *chosen = NULL, *best = NULL;
     double chosen_seconds = 0.0, best_seconds = (double)INFINITY;
     for (size_t c = 0; c < b->count; c++) {
         const double seconds = total_seconds(b, c);
@@ -145,7 +145,7 @@ static void note_regret(accel_bench_output *out, const accel_bench *b)
     }
 }
 
-void accel_bench_print(accel_bench_output *out, const accel_bench *b)
+void bench_print(struct bench_output *out, const struct bench *b)
 {
     if (!out->headed && out->table) {
         print_head(b, out->peers);
@@ -163,7 +163,7 @@ void accel_bench_print(accel_bench_output *out, const accel_bench *b)
     }
 }
 
-void accel_bench_print_sum(const accel_bench_output *out)
+void bench_print_sum(const struct bench_output *out)
 {
     if (out->table && out->regret_count > 1) {
         printf("\nauto over %zu scenes: mean regret %.3f, worst %.3f (%s)\n", out->regret_count,

@@ -15,10 +15,10 @@ static bool normalise(double v[3])
     return length > 0.0 && isfinite(length);
 }
 
-bool accel_camera_make(accel_camera *camera, const double eye[3], const double at[3], double fov,
-                       uint32_t width, uint32_t height)
+bool camera_make(struct camera *camera, const double eye[3], const double at[3], double fov,
+                 uint32_t width, uint32_t height)
 {
-    *camera = (accel_camera){.h = tan(fov * PI / 360.0), .width = width, .height = height};
+    *camera = (struct camera){.h = tan(fov * PI / 360.0), .width = width, .height = height};
     double *w = camera->w, *r = camera->r, *u = camera->u;
     for (int k = 0; k < 3; k++) {
         camera->eye[k] = eye[k];
@@ -39,7 +39,7 @@ bool accel_camera_make(accel_camera *camera, const double eye[3], const double a
     return fine;
 }
 
-void accel_camera_frame(const accel_box *box, double eye[3], double at[3])
+void camera_frame(const accel_box *box, double eye[3], double at[3])
 {
     /* the box's ball, radius 1, fills 40 degrees from distance 1/sin(20 deg) = 2.93 */
     static const double towards[3] = {0.5, 0.5, 0.7071067811865476};
@@ -55,7 +55,7 @@ void accel_camera_frame(const accel_box *box, double eye[3], double at[3])
     }
 }
 
-accel_ray accel_camera_ray(const accel_camera *camera, double i, double j)
+accel_ray camera_ray(const struct camera *camera, double i, double j)
 {
     const double w = camera->width, h = camera->height;
     const double x = (2.0 * (i + 0.5) / w - 1.0) * camera->h;

@@ -28,22 +28,22 @@
 
 #include <accel/accel.h>
 
-/* A camera. Made by accel_camera_make. */
-typedef struct accel_camera {
+/* A camera. Made by camera_make. */
+struct camera {
     double eye[3];           /* E */
     double w[3], r[3], u[3]; /* forward, right, up; unit length */
     double h;                /* half the image's width at distance 1 */
     uint32_t width, height;  /* pixels */
-} accel_camera;
+};
 
 /* Fails where eye and at are equal or not finite, or the field of view is not in (0, 180). */
-bool accel_camera_make(accel_camera *camera, const double eye[3], const double at[3], double fov,
-                       uint32_t width, uint32_t height);
+bool camera_make(struct camera *camera, const double eye[3], const double at[3], double fov,
+                 uint32_t width, uint32_t height);
 
 /* Where a camera with 40 degrees frames the box: eye and at. */
-void accel_camera_frame(const accel_box *box, double eye[3], double at[3]);
+void camera_frame(const accel_box *box, double eye[3], double at[3]);
 
 /* The ray through column i, row j; fractions are allowed: pixel 0 is centred at 0. */
-accel_ray accel_camera_ray(const accel_camera *camera, double i, double j);
+accel_ray camera_ray(const struct camera *camera, double i, double j);
 
 #endif

@@ -12,7 +12,7 @@ static bool read_point(const char *text, size_t length, double out[3])
     for (int k = 0; k < 3; k++) {
         const char *comma = memchr(text, ',', length);
         const size_t part = k == 2 || comma == NULL ? length : (size_t)(comma - text);
-        if ((k < 2 && comma == NULL) || !accel_read_number(text, part, &out[k])) {
+        if ((k < 2 && comma == NULL) || !read_number(text, part, &out[k])) {
             return false;
         }
         text += part + (k < 2);
@@ -27,16 +27,16 @@ static bool read_camera(const char *text, double eye[3], double at[3], double *f
     const char *second = first == NULL ? NULL : strchr(first + 1, ':');
     return second != NULL && read_point(text, (size_t)(first - text), eye) &&
            read_point(first + 1, (size_t)(second - first - 1), at) &&
-           accel_read_number(second + 1, strlen(second + 1), fov);
+           read_number(second + 1, strlen(second + 1), fov);
 }
 
 static bool read_size(const char *text, uint32_t *width, uint32_t *height)
 {
     double w, h;
     const char *x = strchr(text, 'x');
-    if (x == NULL || !accel_read_number(text, (size_t)(x - text), &w) ||
-        !accel_read_number(x + 1, strlen(x + 1), &h) || w != floor(w) || h != floor(h) || w < 1.0 ||
-        h < 1.0 || w > 65536.0 || h > 65536.0 || w * h > ACCEL_MOST_PIXELS) {
+    if (x == NULL || !read_number(text, (size_t)(x - text), &w) ||
+        !read_number(x + 1, strlen(x + 1), &h) || w != floor(w) || h != floor(h) || w < 1.0 ||
+        h < 1.0 || w > 65536.0 || h > 65536.0 || w * h > MOST_PIXELS) {
         return false;
     }
     *width = (uint32_t)w;
@@ -44,27 +44,27 @@ static bool read_size(const char *text, uint32_t *width, uint32_t *height)
     return true;
 }
 
-bool accel_camera_argument(const accel_command *command, const char *size, const char *text,
-                           const accel_scene *scene, accel_camera *camera)
+bool camera_argument(const struct command *command, const char *size, const char *text,
+                     const accel_scene *scene, struct camera *camera)
 {
     uint32_t width = 640, height = 480;
     double eye[3], at[3], fov = 40.0;
     if (size != NULL && !read_size(size, &width, &height)) {
-        accel_complain(command,
-                       "--size is '%.60s'; allowed is WxH, up to 65536 each and 2^26 pixels; "
-                       "nothing was written",
-                       size);
+        complain(command,
+                 "--size is '%.60s'; allowed is WxH, up to 65536 each and 2^26 pixels; "
+                 "nothing was written",
+                 size);
         return false;
     }
     accel_box box;
-    accel_scene_box(scene, &box);
-    accel_camera_frame(&box, eye, at);
+    scene_box(scene, &box);
+    camera_frame(&box, eye, at);
     if ((text != NULL && !read_camera(text, eye, at, &fov)) ||
-        !accel_camera_make(camera, eye, at, fov, width, height)) {
-        accel_complain(command,
-                       "camera '%.100s' is no camera; allowed is ex,ey,ez:ax,ay,az:degrees, two "
-                       "points that differ and degrees between 0 and 180; nothing was written",
-                       text == NULL ? "(default)" : text);
+        !camera_make(camera, eye, at, fov, width, height)) {
+        complain(command,
+                 "camera '%.100s' is no camera; allowed is ex,ey,ez:ax,ay,az:degrees, two "
+                 "points that differ and degrees between 0 and 180; nothing was written",
+                 text == NULL ? "(default)" : text);
         return false;
     }
     return true;

@@ -11,7 +11,7 @@
 
 /* Makes the camera; NULL stands for 640x480, and for one that frames the scene with 40 degrees.
  * Otherwise complains and returns false. */
-bool accel_camera_argument(const accel_command *command, const char *size, const char *text,
-                           const accel_scene *scene, accel_camera *camera);
+bool camera_argument(const struct command *command, const char *size, const char *text,
+                     const accel_scene *scene, struct camera *camera);
 
 #endif

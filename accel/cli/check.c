@@ -19,7 +19,7 @@ enum { FLAG_CONFIG, FLAG_RAYS, FLAG_SEED, FLAG_THREADS, FLAG_JUDGED, FLAG_RAY };
 
 enum { LEAST_JUDGED = 20000, DEFAULT_RAYS = 120000, MOST_THREADS = 1024 };
 
-static const accel_flag flags[] = {
+static const struct flag flags[] = {
     {"accelerator", 'a', "CONFIG",
      "structure to check, may be repeated (default: every kind and form but linear)"},
     {"rays", 'n', "N", "rays to check (default 120000)"},
@@ -36,14 +36,14 @@ static const accel_flag flags[] = {
 /* What the arguments say. */
 typedef struct request {
     const char *scene, *ray;
-    accel_configs configs;
-    accel_forms forms;                    /* where no config is given */
+    struct configs configs;
+    struct forms forms;                   /* where no config is given */
     bool asked;                           /* the configs are given by -a */
     uint64_t rays, seed, threads, judged; /* 0 for the default of threads and judged */
 } request;
 
 /* Has a structure with the same resolved config been built before? Is it the judge itself? */
-static bool is_known(const accel_check *check, const accel_info *info)
+static bool is_known(const struct check *check, const accel_info *info)
 {
     for (size_t i = 0; i < check->suspect_count; i++) {
         if (strcmp(check->suspects[i].info.config, info->config) == 0) {
@@ -54,14 +54,14 @@ static bool is_known(const accel_check *check, const accel_info *info)
 }
 
 /* `asked` is false for a structure that was not given by -a. */
-static bool add_suspect(accel_check *check, const char *config, bool asked)
+static bool add_suspect(struct check *check, const char *config, bool asked)
 {
-    accel *a = accel_open_structure(&check->loaded, config, check->command, &check->progress);
+    accel *a = open_structure(&check->loaded, config, check->command, &check->progress);
     if (a == NULL) {
         return false;
     }
-    accel_suspect *suspect = &check->suspects[check->suspect_count];
-    *suspect = (accel_suspect){.structure = a, .first = UINT64_MAX};
+    struct suspect *suspect = &check->suspects[check->suspect_count];
+    *suspect = (struct suspect){.structure = a, .first = UINT64_MAX};
     accel_describe(a, &suspect->info);
     if (!asked && is_known(check, &suspect->info)) {
         printf("%s means %s here, which is checked anyway\n", config, suspect->info.config);
@@ -72,7 +72,7 @@ static bool add_suspect(accel_check *check, const char *config, bool asked)
     return true;
 }
 
-static bool has_two_kinds(const accel_check *check)
+static bool has_two_kinds(const struct check *check)
 {
     for (size_t i = 1; i < check->suspect_count; i++) {
         if (strcmp(check->suspects[i].info.kind, check->suspects[0].info.kind) != 0) {
@@ -83,7 +83,7 @@ static bool has_two_kinds(const accel_check *check)
 }
 
 /* Agreement needs a second kind of structure beside the only one. */
-static bool add_second_opinion(accel_check *check)
+static bool add_second_opinion(struct check *check)
 {
     size_t count;
     const accel_kind_info *const *kinds = accel_kinds(&count);
@@ -98,7 +98,7 @@ static bool add_second_opinion(accel_check *check)
     return true;
 }
 
-static uint64_t default_judged(const accel_check *check)
+static uint64_t default_judged(const struct check *check)
 {
     const double tests = (double)check->rays.primitives;
     const uint64_t judged = tests * (double)check->ray_count <= DEFAULT_TESTS
@@ -108,111 +108,111 @@ static uint64_t default_judged(const accel_check *check)
     return least < check->ray_count ? least : check->ray_count;
 }
 
-static int check_rays(accel_check *check, const request *request)
+static int check_rays(struct check *check, const request *request)
 {
-    check->rays = accel_rays_start(&check->loaded.scene, request->seed);
+    check->rays = rays_start(&check->loaded.scene, request->seed);
     check->ray_count = request->rays;
     check->judged_count = request->judged == 0              ? default_judged(check)
                           : request->judged < request->rays ? request->judged
                                                             : request->rays;
-    check->threads = request->threads == 0 ? accel_crew_size() : (unsigned)request->threads;
+    check->threads = request->threads == 0 ? crew_size() : (unsigned)request->threads;
     if (check->judged_count < check->ray_count && !has_two_kinds(check) &&
         !add_second_opinion(check)) {
-        return ACCEL_EXIT_BAD;
+        return EXIT_BAD;
     }
-    if (!accel_check_run(check)) {
-        return accel_complain(check->command, "out of memory; nothing was checked");
+    if (!check_run(check)) {
+        return complain(check->command, "out of memory; nothing was checked");
     }
-    return accel_check_report(check);
+    return check_report(check);
 }
 
-static int build_and_check(accel_check *check, const request *request)
+static int build_and_check(struct check *check, const request *request)
 {
     accel_ray ray;
-    if (request->ray != NULL && !accel_read_ray(request->ray, &ray)) {
-        return accel_complain(check->command,
-                              "--ray '%.200s' is no ray; allowed is 'ox oy oz dx dy dz [tmin "
-                              "tmax [geom prim]]'; nothing was checked",
-                              request->ray);
+    if (request->ray != NULL && !ray_from_text(request->ray, &ray)) {
+        return complain(check->command,
+                        "--ray '%.200s' is no ray; allowed is 'ox oy oz dx dy dz [tmin "
+                        "tmax [geom prim]]'; nothing was checked",
+                        request->ray);
     }
-    if (!accel_open_scene(&check->loaded, request->scene, check->command, &check->progress)) {
-        return ACCEL_EXIT_BAD;
+    if (!open_scene(&check->loaded, request->scene, check->command, &check->progress)) {
+        return EXIT_BAD;
     }
-    check->judge = accel_open_structure(&check->loaded, "linear", check->command, &check->progress);
+    check->judge = open_structure(&check->loaded, "linear", check->command, &check->progress);
     bool fine = check->judge != NULL;
     for (size_t i = 0; fine && i < request->configs.count; i++) {
         fine = add_suspect(check, request->configs.items[i], request->asked);
     }
     /* where no other kind is compiled in, linear's own queries are compared with each other */
     if (!fine || (check->suspect_count == 0 && !add_suspect(check, "linear", true))) {
-        return ACCEL_EXIT_BAD;
+        return EXIT_BAD;
     }
-    return request->ray != NULL ? accel_check_replay(check, &ray) : check_rays(check, request);
+    return request->ray != NULL ? check_replay(check, &ray) : check_rays(check, request);
 }
 
-static int run_request(const accel_command *command, request *request, bool quiet)
+static int run_request(const struct command *command, request *request, bool quiet)
 {
     if (request->scene == NULL) {
-        return accel_complain(command, "no SCENE is given; usage: accel %s %s", command->name,
-                              command->arguments);
+        return complain(command, "no SCENE is given; usage: accel %s %s", command->name,
+                        command->arguments);
     }
     request->asked = request->configs.count != 0;
     if (!request->asked) {
-        request->forms = accel_forms_of_kinds(NULL);
-        if (!accel_configs_add_forms(&request->configs, &request->forms, command)) {
-            return ACCEL_EXIT_BAD;
+        request->forms = forms_of_kinds(NULL);
+        if (!configs_add_forms(&request->configs, &request->forms, command)) {
+            return EXIT_BAD;
         }
     }
-    accel_check *check = calloc(1, sizeof *check);
+    struct check *check = calloc(1, sizeof *check);
     if (check == NULL) {
-        return accel_complain(command, "out of memory; nothing was checked");
+        return complain(command, "out of memory; nothing was checked");
     }
     check->command = command;
     check->scene_name = request->scene;
-    check->progress = accel_progress_start(quiet);
+    check->progress = progress_start(quiet);
     const int code = build_and_check(check, request);
     for (size_t i = 0; i < check->suspect_count; i++) {
         accel_free(check->suspects[i].structure);
     }
     accel_free(check->judge);
-    accel_unload_scene(&check->loaded);
+    unload_scene(&check->loaded);
     free(check);
     return code;
 }
 
-static bool take(accel_arguments *arguments, int found, void *user)
+static bool take(struct arguments *arguments, int found, void *user)
 {
     request *request = user;
     switch (found) {
     case FLAG_CONFIG:
-        return accel_configs_add(&request->configs, arguments->value, arguments->command);
+        return configs_add(&request->configs, arguments->value, arguments->command);
     case FLAG_RAYS:
-        return accel_whole_argument(arguments, found, 1, 10000000000, &request->rays);
+        return whole_argument(arguments, found, 1, 10000000000, &request->rays);
     case FLAG_SEED:
-        return accel_whole_argument(arguments, found, 0, UINT64_MAX, &request->seed);
+        return whole_argument(arguments, found, 0, UINT64_MAX, &request->seed);
     case FLAG_THREADS:
-        return accel_whole_argument(arguments, found, 1, MOST_THREADS, &request->threads);
+        return whole_argument(arguments, found, 1, MOST_THREADS, &request->threads);
     case FLAG_JUDGED:
-        return accel_whole_argument(arguments, found, 1, 10000000000, &request->judged);
+        return whole_argument(arguments, found, 1, 10000000000, &request->judged);
     case FLAG_RAY:
         request->ray = arguments->value;
         return true;
     default:
-        return accel_one_word(arguments, "SCENE", &request->scene);
+        return one_word(arguments, "SCENE", &request->scene);
     }
 }
 
-static int run(const accel_command *command, int argc, char **argv)
+static int run(const struct command *command, int argc, char **argv)
 {
-    accel_arguments arguments = accel_arguments_start(command, argc, argv);
+    struct arguments arguments = arguments_start(command, argc, argv);
     request request = {.rays = DEFAULT_RAYS, .seed = 1};
-    if (!accel_take_arguments(&arguments, take, &request)) {
+    if (!take_arguments(&arguments, take, &request)) {
         return arguments.exit_code;
     }
     return run_request(command, &request, arguments.quiet);
 }
 
-const accel_command accel_command_check = {
+const struct command command_check = {
     .name = "check",
     .arguments = "SCENE [-a CONFIG]... [--rays N] [--seed S] [--threads T]",
     .summary = "compare structures with linear, bit for bit, over adversarial rays",

@@ -10,52 +10,52 @@
 #include "structure.h"
 
 /* One structure under check. */
-typedef struct accel_suspect {
+struct suspect {
     accel *structure;
     accel_info info; /* describes it */
     bool added;      /* not asked for: a second opinion where linear judges a sample only */
     uint64_t hits;   /* rays that hit */
-    uint64_t family_hits[ACCEL_FAMILIES];
+    uint64_t family_hits[FAMILIES];
     uint64_t refused;     /* rays that were not valid */
     uint64_t mismatches;  /* rays with any difference */
     uint64_t by_query[4]; /* of them by accel_closest, accel_any, accel_all, accel_point */
     uint64_t first;       /* the lowest ray with a difference; UINT64_MAX for none */
-} accel_suspect;
+};
 
 /* A whole check. */
-typedef struct accel_check {
-    const accel_command *command;
+struct check {
+    const struct command *command;
     const char *scene_name;
-    accel_loaded loaded;
+    struct loaded loaded;
     accel *judge; /* linear */
-    accel_suspect suspects[ACCEL_MOST_CONFIGS + 1];
+    struct suspect suspects[MOST_CONFIGS + 1];
     size_t suspect_count;
-    accel_rays rays;
+    struct rays rays;
     uint64_t ray_count;    /* to check */
     uint64_t judged_count; /* of them by linear */
     unsigned threads;
-    accel_progress progress;
-} accel_check;
+    struct progress progress;
+};
 
 /* One ray in 2^4 of each family is asked accel_all and accel_point as well. */
-enum { ACCEL_LISTS_EVERY = 16 };
+enum { LISTS_EVERY = 16 };
 
 /* Question number `index`. Lists need the closest hit of some structure for their point. */
-accel_question accel_check_question(const accel_check *check, uint64_t index);
+struct question check_question(const struct check *check, uint64_t index);
 
 /* How many of the first `count` rays are of a family. */
-uint64_t accel_check_family_rays(uint64_t count, uint64_t family);
+uint64_t check_family_rays(uint64_t count, uint64_t family);
 
 /* Does linear judge ray `index`? They lie evenly in each family. */
-bool accel_check_judged(const accel_check *check, uint64_t index);
+bool check_judged(const struct check *check, uint64_t index);
 
 /* Checks all rays and fills the tallies. Returns false when memory runs out. */
-bool accel_check_run(accel_check *check);
+bool check_run(struct check *check);
 
 /* Prints the tallies and the rays that differ. Returns the exit code. */
-int accel_check_report(const accel_check *check);
+int check_report(const struct check *check);
 
 /* Asks linear and all suspects for one ray and prints their answers. Returns the exit code. */
-int accel_check_replay(const accel_check *check, const accel_ray *ray);
+int check_replay(const struct check *check, const accel_ray *ray);
 
 #endif

@@ -15,7 +15,7 @@ static void print_hit(const accel_hit *hit)
            hit->prim, hit->t, hit->t, hit->u, hit->v);
 }
 
-static void print_answers(const char *name, const accel_answers *answers)
+static void print_answers(const char *name, const struct answers *answers)
 {
     printf("%s\n  closest ", name);
     if (answers->found) {
@@ -49,41 +49,41 @@ static void print_differences(unsigned differences)
     printf("\n");
 }
 
-static accel_answers expected_answers, got_answers;
+static struct answers expected_answers, got_answers;
 
-int accel_check_replay(const accel_check *check, const accel_ray *ray)
+int check_replay(const struct check *check, const accel_ray *ray)
 {
-    accel_question question = {.ray = *ray, .lists = true};
+    struct question question = {.ray = *ray, .lists = true};
     accel_hit hit = {0};
     accel_closest(check->judge, ray, &hit, NULL);
     for (int k = 0; k < 3; k++) {
         question.point[k] = ray->org[k] + hit.t * ray->dir[k];
     }
-    accel_ask_judge(check->judge, &question, NULL, &expected_answers);
+    ask_judge(check->judge, &question, NULL, &expected_answers);
     print_answers("linear", &expected_answers);
-    int code = ACCEL_EXIT_FINE;
+    int code = EXIT_FINE;
     for (size_t i = 0; i < check->suspect_count; i++) {
-        accel_ask(check->suspects[i].structure, &question, NULL, &got_answers);
+        ask(check->suspects[i].structure, &question, NULL, &got_answers);
         print_answers(check->suspects[i].info.config, &got_answers);
-        const unsigned differences = accel_differences(&question, &expected_answers, &got_answers);
+        const unsigned differences = count_differences(&question, &expected_answers, &got_answers);
         if (differences != 0) {
             print_differences(differences);
-            code = ACCEL_EXIT_DIFFERENT;
+            code = EXIT_DIFFERENT;
         }
     }
     return code;
 }
 
-static void print_head(const accel_check *check)
+static void print_head(const struct check *check)
 {
     printf("%s: %" PRIu64 " primitives in %" PRIu32 " geometries\n", check->scene_name,
-           accel_scene_primitives(&check->loaded.scene), check->loaded.scene.count);
+           scene_primitives(&check->loaded.scene), check->loaded.scene.count);
     printf("rays: %" PRIu64 ", seed %" PRIu64 ", of %d families in turn; of them hit:",
-           check->ray_count, check->rays.seed, ACCEL_FAMILIES);
-    for (uint64_t i = 0; i < ACCEL_FAMILIES; i++) {
-        const uint64_t rays = accel_check_family_rays(check->ray_count, i);
+           check->ray_count, check->rays.seed, FAMILIES);
+    for (uint64_t i = 0; i < FAMILIES; i++) {
+        const uint64_t rays = check_family_rays(check->ray_count, i);
         if (rays > 0) {
-            printf(" %s %.0f%%", accel_family_name((accel_family)i),
+            printf(" %s %.0f%%", family_name((enum family)i),
                    100.0 * (double)check->suspects[0].family_hits[i] / (double)rays);
         }
     }
@@ -96,10 +96,10 @@ static void print_head(const accel_check *check)
                check->judged_count, check->ray_count, check->suspect_count);
     }
     printf("compared: closest and any of each ray; all and point of one ray in %d\n\n",
-           ACCEL_LISTS_EVERY);
+           LISTS_EVERY);
 }
 
-static void print_suspect(const accel_check *check, const accel_suspect *suspect)
+static void print_suspect(const struct check *check, const struct suspect *suspect)
 {
     printf("%12" PRIu64 " %12" PRIu64 " %10" PRIu64 " %12" PRIu64 " %12" PRIu64 "  %s%s\n",
            check->ray_count, suspect->hits, suspect->refused, check->judged_count,
@@ -113,19 +113,19 @@ static void print_suspect(const accel_check *check, const accel_suspect *suspect
     }
 }
 
-static void print_replay(const accel_check *check, const accel_suspect *suspect)
+static void print_replay(const struct check *check, const struct suspect *suspect)
 {
-    const accel_ray ray = accel_rays_make(&check->rays, suspect->first);
-    char text[ACCEL_RAY_TEXT];
-    accel_write_ray(&ray, text);
+    const accel_ray ray = rays_make(&check->rays, suspect->first);
+    char text[RAY_TEXT];
+    write_ray(&ray, text);
     printf("\nray %" PRIu64 " (%s) differs with %s; replay it by\n"
            "  accel check '%s' -a '%s' --ray '%s'\n",
-           suspect->first, accel_family_name((accel_family)(suspect->first % ACCEL_FAMILIES)),
+           suspect->first, family_name((enum family)(suspect->first % FAMILIES)),
            suspect->info.config, check->scene_name, suspect->info.config, text);
 }
 
 /* Checks the invariants that the exactness proof needs. */
-static bool is_valid(const accel_suspect *suspect)
+static bool is_valid(const struct suspect *suspect)
 {
     accel_error error;
     const bool valid = accel_validate(suspect->structure, &error) == ACCEL_OK;
@@ -135,7 +135,7 @@ static bool is_valid(const accel_suspect *suspect)
     return valid;
 }
 
-int accel_check_report(const accel_check *check)
+int check_report(const struct check *check)
 {
     print_head(check);
     printf("%12s %12s %10s %12s %12s  config\n", "rays", "hits", "refused", "by linear",
@@ -154,5 +154,5 @@ int accel_check_report(const accel_check *check)
     }
     printf("\n%" PRIu64 " rays, %" PRIu64 " mismatches; structures are %s\n",
            check->ray_count * check->suspect_count, mismatches, valid ? "valid" : "BROKEN");
-    return mismatches == 0 && valid ? ACCEL_EXIT_FINE : ACCEL_EXIT_DIFFERENT;
+    return mismatches == 0 && valid ? EXIT_FINE : EXIT_DIFFERENT;
 }

@@ -18,35 +18,35 @@ enum { BLOCK = 64, MOST_DECIDED = 1000 };
 
 /* What one thread found out about one structure. */
 typedef struct tally {
-    uint64_t family_hits[ACCEL_FAMILIES], refused, mismatches, by_query[4], first;
+    uint64_t family_hits[FAMILIES], refused, mismatches, by_query[4], first;
 } tally;
 
 /* What the threads share. */
 typedef struct run {
-    accel_check *check;
+    struct check *check;
     atomic_uint_fast64_t next;    /* block to take */
     atomic_uint_fast64_t decided; /* disagreements that linear decided */
     atomic_bool failed;           /* no memory */
     tally *tallies;               /* of every thread and structure */
 } run;
 
-uint64_t accel_check_family_rays(uint64_t count, uint64_t family)
+uint64_t check_family_rays(uint64_t count, uint64_t family)
 {
-    return (count + ACCEL_FAMILIES - 1 - family) / ACCEL_FAMILIES;
+    return (count + FAMILIES - 1 - family) / FAMILIES;
 }
 
-bool accel_check_judged(const accel_check *check, uint64_t index)
+bool check_judged(const struct check *check, uint64_t index)
 {
-    const uint64_t family = index % ACCEL_FAMILIES, j = index / ACCEL_FAMILIES;
-    const uint64_t all = accel_check_family_rays(check->ray_count, family);
-    const uint64_t some = accel_check_family_rays(check->judged_count, family);
+    const uint64_t family = index % FAMILIES, j = index / FAMILIES;
+    const uint64_t all = check_family_rays(check->ray_count, family);
+    const uint64_t some = check_family_rays(check->judged_count, family);
     return (j + 1) * some / all > j * some / all;
 }
 
-accel_question accel_check_question(const accel_check *check, uint64_t index)
+struct question check_question(const struct check *check, uint64_t index)
 {
-    accel_question question = {.ray = accel_rays_make(&check->rays, index)};
-    question.lists = index / ACCEL_FAMILIES % ACCEL_LISTS_EVERY == 0;
+    struct question question = {.ray = rays_make(&check->rays, index)};
+    question.lists = index / FAMILIES % LISTS_EVERY == 0;
     for (int k = 0; k < 3; k++) {
         question.point[k] = question.ray.org[k];
     }
@@ -59,9 +59,9 @@ accel_question accel_check_question(const accel_check *check, uint64_t index)
     return question;
 }
 
-static void count(tally *t, uint64_t index, const accel_answers *got, unsigned differences)
+static void count(tally *t, uint64_t index, const struct answers *got, unsigned differences)
 {
-    t->family_hits[index % ACCEL_FAMILIES] += got->found;
+    t->family_hits[index % FAMILIES] += got->found;
     if (differences == 0) {
         return;
     }
@@ -72,12 +72,12 @@ static void count(tally *t, uint64_t index, const accel_answers *got, unsigned d
     }
 }
 
-static bool all_agree(const accel_check *check, const accel_question *question,
-                      const accel_answers *answers)
+static bool all_agree(const struct check *check, const struct question *question,
+                      const struct answers *answers)
 {
     /* the first structure's accel_any is compared with its own accel_closest */
     for (size_t i = 0; i < check->suspect_count; i++) {
-        if (accel_differences(question, &answers[0], &answers[i]) != 0) {
+        if (count_differences(question, &answers[0], &answers[i]) != 0) {
             return false;
         }
     }
@@ -85,32 +85,32 @@ static bool all_agree(const accel_check *check, const accel_question *question,
 }
 
 /* `answers` has room for all structures and for the judge behind them. */
-static void check_ray(run *r, uint64_t index, tally *tallies, accel_answers *answers)
+static void check_ray(run *r, uint64_t index, tally *tallies, struct answers *answers)
 {
-    const accel_check *check = r->check;
-    const accel_question question = accel_check_question(check, index);
+    const struct check *check = r->check;
+    const struct question question = check_question(check, index);
     for (size_t i = 0; i < check->suspect_count; i++) {
         accel_query query = {0};
-        accel_ask(check->suspects[i].structure, &question, &query, &answers[i]);
+        ask(check->suspects[i].structure, &question, &query, &answers[i]);
         tallies[i].refused += query.refused != 0;
     }
-    const accel_answers *expected = &answers[0];
-    if (accel_check_judged(check, index) || (!all_agree(check, &question, answers) &&
-                                             atomic_fetch_add(&r->decided, 1) < MOST_DECIDED)) {
-        accel_answers *judged = &answers[check->suspect_count];
-        accel_ask_judge(check->judge, &question, NULL, judged);
+    const struct answers *expected = &answers[0];
+    if (check_judged(check, index) || (!all_agree(check, &question, answers) &&
+                                       atomic_fetch_add(&r->decided, 1) < MOST_DECIDED)) {
+        struct answers *judged = &answers[check->suspect_count];
+        ask_judge(check->judge, &question, NULL, judged);
         expected = judged;
     }
     for (size_t i = 0; i < check->suspect_count; i++) {
-        count(&tallies[i], index, &answers[i], accel_differences(&question, expected, &answers[i]));
+        count(&tallies[i], index, &answers[i], count_differences(&question, expected, &answers[i]));
     }
 }
 
 static void work(void *user, unsigned thread)
 {
     run *r = user;
-    accel_check *check = r->check;
-    accel_answers *answers = malloc((check->suspect_count + 1) * sizeof *answers);
+    struct check *check = r->check;
+    struct answers *answers = malloc((check->suspect_count + 1) * sizeof *answers);
     if (answers == NULL) {
         atomic_store(&r->failed, true);
         return;
@@ -126,16 +126,15 @@ static void work(void *user, unsigned thread)
             check_ray(r, i, tallies, answers);
         }
         if (thread == 0) {
-            accel_progress_show(&check->progress, "checking rays",
-                                (double)to / (double)check->ray_count);
+            progress_show(&check->progress, "checking rays", (double)to / (double)check->ray_count);
         }
     }
     free(answers);
 }
 
-static void add_tally(accel_suspect *suspect, const tally *t)
+static void add_tally(struct suspect *suspect, const tally *t)
 {
-    for (int i = 0; i < ACCEL_FAMILIES; i++) {
+    for (int i = 0; i < FAMILIES; i++) {
         suspect->family_hits[i] += t->family_hits[i];
         suspect->hits += t->family_hits[i];
     }
@@ -147,7 +146,7 @@ static void add_tally(accel_suspect *suspect, const tally *t)
     }
 }
 
-bool accel_check_run(accel_check *check)
+bool check_run(struct check *check)
 {
     const size_t count = check->threads * check->suspect_count;
     run r = {.check = check, .tallies = calloc(count, sizeof *r.tallies)};
@@ -157,8 +156,8 @@ bool accel_check_run(accel_check *check)
     for (size_t i = 0; i < count; i++) {
         r.tallies[i].first = UINT64_MAX;
     }
-    accel_crew(check->threads, work, &r);
-    accel_progress_clear(&check->progress);
+    crew(check->threads, work, &r);
+    progress_clear(&check->progress);
     for (size_t i = 0; i < count; i++) {
         add_tally(&check->suspects[i % check->suspect_count], &r.tallies[i]);
     }

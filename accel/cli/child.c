@@ -51,8 +51,8 @@ static void silence(void)
     }
 }
 
-static _Noreturn void run_child(const accel_child_limits *limits, accel_child_work *work,
-                                void *user, int pipe)
+static _Noreturn void run_child(const struct child_limits *limits, child_work *work, void *user,
+                                int pipe)
 {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     signal(SIGPIPE, SIG_DFL);
@@ -70,14 +70,13 @@ static _Noreturn void run_child(const accel_child_limits *limits, accel_child_wo
     _exit(fclose(out) == 0 ? 0 : 1);
 }
 
-bool accel_child_start(accel_child *child, accel_child_limits limits, accel_child_work *work,
-                       void *user)
+bool child_start(struct child *child, struct child_limits limits, child_work *work, void *user)
 {
     int ends[2];
     if (pipe(ends) != 0) {
         return false;
     }
-    *child = (accel_child){.limits = limits, .pipe = ends[0]};
+    *child = (struct child){.limits = limits, .pipe = ends[0]};
     fflush(NULL);
     child->pid = fork();
     if (child->pid == 0) {
@@ -92,14 +91,14 @@ bool accel_child_start(accel_child *child, accel_child_limits limits, accel_chil
     return true;
 }
 
-void accel_child_write(FILE *pipe, const void *bytes, size_t count)
+void child_write(FILE *pipe, const void *bytes, size_t count)
 {
     if (fwrite(bytes, 1, count, pipe) != count) {
         _exit(1);
     }
 }
 
-static void wait_for_bytes(accel_child *child)
+static void wait_for_bytes(struct child *child)
 {
     struct pollfd pipe = {.fd = child->pipe, .events = POLLIN};
     while (poll(&pipe, 1, 100) == 0) {
@@ -109,7 +108,7 @@ static void wait_for_bytes(accel_child *child)
     }
 }
 
-bool accel_child_read(accel_child *child, void *bytes, size_t count)
+bool child_read(struct child *child, void *bytes, size_t count)
 {
     char *at = bytes;
     while (count > 0) {
@@ -126,7 +125,7 @@ bool accel_child_read(accel_child *child, void *bytes, size_t count)
     return true;
 }
 
-const char *accel_child_end(accel_child *child)
+const char *child_end(struct child *child)
 {
     close(child->pipe);
     int status = 0;

@@ -15,7 +15,7 @@
 
 enum { FLAG_MOST, FLAG_REPEATS, FLAG_CSV };
 
-static const accel_flag flags[] = {
+static const struct flag flags[] = {
     [FLAG_MOST] = {"most", 'n', "N", "largest size of a family (default: 10000000)"},
     [FLAG_REPEATS] = {"repeats", 0, "N", "turns for each scene, at least (default: 3)"},
     [FLAG_CSV] = {"csv", 0, "FILE", "write all figures there as well; " ACCEL_DASH},
@@ -42,8 +42,8 @@ enum { FAMILIES = sizeof families / sizeof families[0] };
 
 /* What was asked for. */
 typedef struct request {
-    const accel_command *command;
-    accel_scene_names scenes;
+    const struct command *command;
+    struct scene_names scenes;
     uint64_t most, repeats;
     bool quiet;
     bool headed; /* the head has been printed */
@@ -64,11 +64,11 @@ typedef struct figures {
 static void print_head(const request *r)
 {
     char processor[256];
-    accel_machine_processor(processor, sizeof processor);
+    machine_processor(processor, sizeof processor);
     printf("%s\n%s\n"
            "ms of processor time of one thread, median of %" PRIu64 " turns or more\n\n"
            "%-28s %10s %8s %6s %12s %12s %10s %7s\n",
-           processor, accel_machine_build(), r->repeats, "scene", "primitives", "clusters", "sizes",
+           processor, machine_build(), r->repeats, "scene", "primitives", "clusters", "sizes",
            "clustering", "ns/primitive", "build", "share");
 }
 
@@ -78,8 +78,8 @@ static void print_row(request *r, const figures *f)
         print_head(r);
         r->headed = true;
     }
-    const double clusters = accel_quantile(f->clusters, f->turns, 0.5);
-    const double build = accel_quantile(f->builds, f->turns, 0.5);
+    const double clusters = quantile(f->clusters, f->turns, 0.5);
+    const double build = quantile(f->builds, f->turns, 0.5);
     const double each = f->info.primitives > 0 ? clusters / (double)f->info.primitives : 0.0;
     printf("%-28s %10" PRIu64 " %8" PRIu32 " %6" PRIu32 " %12.3f %12.1f %10.2f %5.1f %%\n",
            f->scene, f->info.primitives, f->info.clusters, f->info.size_classes, 1e3 * clusters,
@@ -105,15 +105,15 @@ static double cluster_part(const accel_info *info)
 }
 
 /* The library notes its phases by the clock on the wall; other programs stop all of them alike. */
-static bool take_turn(const request *r, const accel_loaded *loaded, figures *f, size_t turn,
-                      accel_progress *progress)
+static bool take_turn(const request *r, const struct loaded *loaded, figures *f, size_t turn,
+                      struct progress *progress)
 {
-    const double start = accel_machine_seconds();
-    accel *a = accel_open_structure(loaded, "hoo", r->command, progress);
+    const double start = machine_seconds();
+    accel *a = open_structure(loaded, "hoo", r->command, progress);
     if (a == NULL) {
         return false;
     }
-    f->builds[turn] = accel_machine_seconds() - start;
+    f->builds[turn] = machine_seconds() - start;
     accel_describe(a, &f->info);
     f->clusters[turn] = f->builds[turn] * cluster_part(&f->info);
     accel_free(a);
@@ -128,32 +128,32 @@ static bool more_turns(const request *r, const figures *f, double spent)
 
 static int run_scene(request *r, const char *name)
 {
-    accel_progress progress = accel_progress_start(r->quiet);
-    accel_loaded loaded;
+    struct progress progress = progress_start(r->quiet);
+    struct loaded loaded;
     figures f = {.scene = name};
-    bool fine = accel_open_scene(&loaded, name, r->command, &progress);
+    bool fine = open_scene(&loaded, name, r->command, &progress);
     if (!fine) {
-        return ACCEL_EXIT_BAD;
+        return EXIT_BAD;
     }
     for (double spent = 0.0; fine && more_turns(r, &f, spent); f.turns++) {
         fine = take_turn(r, &loaded, &f, f.turns, &progress);
         spent += f.builds[f.turns];
     }
-    accel_unload_scene(&loaded);
+    unload_scene(&loaded);
     if (!fine) {
-        return ACCEL_EXIT_BAD;
+        return EXIT_BAD;
     }
-    accel_sort_values(f.clusters, f.turns);
-    accel_sort_values(f.builds, f.turns);
+    sort_values(f.clusters, f.turns);
+    sort_values(f.builds, f.turns);
     print_row(r, &f);
-    return ACCEL_EXIT_FINE;
+    return EXIT_FINE;
 }
 
 /* Sizes 10^4, 10^5, ... of a family. */
 static int run_family(request *r, const family *g)
 {
-    int code = ACCEL_EXIT_FINE;
-    for (uint64_t n = LEAST; n <= r->most && code == ACCEL_EXIT_FINE; n *= 10) {
+    int code = EXIT_FINE;
+    for (uint64_t n = LEAST; n <= r->most && code == EXIT_FINE; n *= 10) {
         const double value = round(g->per * pow((double)n, g->power));
         char name[64];
         if (value > g->last) {
@@ -177,8 +177,8 @@ static int run_word(request *r, const char *word)
 
 static int run_words(request *r)
 {
-    int code = ACCEL_EXIT_FINE;
-    for (size_t i = 0; i < r->scenes.count && code == ACCEL_EXIT_FINE; i++) {
+    int code = EXIT_FINE;
+    for (size_t i = 0; i < r->scenes.count && code == EXIT_FINE; i++) {
         code = run_word(r, r->scenes.items[i]);
     }
     return code;
@@ -190,37 +190,37 @@ static int run_into_file(request *r)
     if (r->csv_name == NULL) {
         return run_words(r);
     }
-    accel_output output;
+    struct output output;
     accel_error error;
-    if (!accel_output_open(&output, r->csv_name, &error)) {
-        return accel_complain(r->command, "%s", error.text);
+    if (!output_open(&output, r->csv_name, &error)) {
+        return complain(r->command, "%s", error.text);
     }
     r->csv = output.file;
     fprintf(r->csv, "scene,primitives,clusters,size_classes,cluster_seconds,build_seconds\n");
-    return accel_end_output(&output, run_words(r), ACCEL_EXIT_FINE, r->command);
+    return end_output(&output, run_words(r), EXIT_FINE, r->command);
 }
 
-static bool take(accel_arguments *a, int flag, void *user)
+static bool take(struct arguments *a, int flag, void *user)
 {
     request *r = user;
     switch (flag) {
     case FLAG_MOST:
-        return accel_whole_argument(a, flag, LEAST, 30000000, &r->most);
+        return whole_argument(a, flag, LEAST, 30000000, &r->most);
     case FLAG_REPEATS:
-        return accel_whole_argument(a, flag, 1, MOST_REPEATS, &r->repeats);
+        return whole_argument(a, flag, 1, MOST_REPEATS, &r->repeats);
     case FLAG_CSV:
         r->csv_name = a->value;
         return true;
     default:
-        return accel_scene_names_add(&r->scenes, a->value, r->command);
+        return scene_names_add(&r->scenes, a->value, r->command);
     }
 }
 
-static int run(const accel_command *command, int argc, char **argv)
+static int run(const struct command *command, int argc, char **argv)
 {
-    accel_arguments arguments = accel_arguments_start(command, argc, argv);
+    struct arguments arguments = arguments_start(command, argc, argv);
     request r = {.command = command, .most = 10000000, .repeats = 3};
-    if (!accel_take_arguments(&arguments, take, &r)) {
+    if (!take_arguments(&arguments, take, &r)) {
         return arguments.exit_code;
     }
     r.quiet = arguments.quiet;
@@ -231,7 +231,7 @@ static int run(const accel_command *command, int argc, char **argv)
     return run_into_file(&r);
 }
 
-const accel_command accel_command_clusters = {
+const struct command command_clusters = {
     .name = "clusters",
     .arguments = "[SCENE|FAMILY]... [--most N] [--csv FILE]",
     .summary = "time to find clusters, from 10^4 to 10^7 primitives",

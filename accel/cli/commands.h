@@ -7,17 +7,17 @@
 
 #include "options.h"
 
-extern const accel_command accel_command_kinds;
-extern const accel_command accel_command_info;
-extern const accel_command accel_command_check;
-extern const accel_command accel_command_trace;
-extern const accel_command accel_command_diff;
-extern const accel_command accel_command_export;
-extern const accel_command accel_command_bench;
-extern const accel_command accel_command_lazy;
-extern const accel_command accel_command_clusters;
-extern const accel_command accel_command_photons;
-extern const accel_command accel_command_tables;
-extern const accel_command accel_command_report;
+extern const struct command command_kinds;
+extern const struct command command_info;
+extern const struct command command_check;
+extern const struct command command_trace;
+extern const struct command command_diff;
+extern const struct command command_export;
+extern const struct command command_bench;
+extern const struct command command_lazy;
+extern const struct command command_clusters;
+extern const struct command command_photons;
+extern const struct command command_tables;
+extern const struct command command_report;
 
 #endif

@@ -8,7 +8,7 @@
 /* A thread that was started. */
 typedef struct member {
     pthread_t thread;
-    accel_crew_work *work;
+    crew_work *work;
     void *user;
     unsigned number;
 } member;
@@ -20,7 +20,7 @@ static void *run_member(void *argument)
     return NULL;
 }
 
-void accel_crew(unsigned threads, accel_crew_work *work, void *user)
+void crew(unsigned threads, crew_work *work, void *user)
 {
     member *members = calloc(threads, sizeof *members);
     unsigned started = 1;
@@ -39,7 +39,7 @@ void accel_crew(unsigned threads, accel_crew_work *work, void *user)
     free(members);
 }
 
-unsigned accel_crew_size(void)
+unsigned crew_size(void)
 {
     cpu_set_t set;
     const int count = sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : 1;

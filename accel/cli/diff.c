@@ -15,12 +15,12 @@ enum { FLAG_OUTPUT };
 
 enum { SHOWN = 10 };
 
-static const accel_flag flags[] = {
+static const struct flag flags[] = {
     {"output", 'o', "FILE.png", "difference image: white where a pixel differs, else dark"},
 };
 
 /* Why the two cannot be compared, or NULL. */
-static const char *why_not_comparable(const accel_image *a, const accel_image *b)
+static const char *why_not_comparable(const struct image *a, const struct image *b)
 {
     if (a->width != b->width || a->height != b->height) {
         return "differ in size";
@@ -37,7 +37,7 @@ static const char *why_not_comparable(const accel_image *a, const accel_image *b
     return NULL;
 }
 
-static bool pixel_differs(const accel_image *a, const accel_image *b, size_t pixel)
+static bool pixel_differs(const struct image *a, const struct image *b, size_t pixel)
 {
     for (uint32_t i = 0; i < a->channel_count; i++) {
         if (a->channels[i].bits[pixel] != b->channels[i].bits[pixel]) {
@@ -47,7 +47,7 @@ static bool pixel_differs(const accel_image *a, const accel_image *b, size_t pix
     return false;
 }
 
-static void print_value(const accel_channel *channel, size_t pixel)
+static void print_value(const struct image_channel *channel, size_t pixel)
 {
     float value;
     if (channel->is_float) {
@@ -58,7 +58,7 @@ static void print_value(const accel_channel *channel, size_t pixel)
     }
 }
 
-static double join_halves(const accel_channel *hi, size_t pixel)
+static double join_halves(const struct image_channel *hi, size_t pixel)
 {
     const uint64_t bits = (uint64_t)hi[0].bits[pixel] << 32 | hi[1].bits[pixel];
     double value;
@@ -67,9 +67,9 @@ static double join_halves(const accel_channel *hi, size_t pixel)
 }
 
 /* Is channel i the upper half of a double, and the next one its lower half? */
-static bool is_double(const accel_image *image, uint32_t i)
+static bool is_double(const struct image *image, uint32_t i)
 {
-    const accel_channel *hi = &image->channels[i];
+    const struct image_channel *hi = &image->channels[i];
     const size_t length = strlen(hi->name);
     return i + 1 < image->channel_count && length > 3 && !hi->is_float &&
            strcmp(hi->name + length - 3, ".hi") == 0 &&
@@ -77,11 +77,11 @@ static bool is_double(const accel_image *image, uint32_t i)
            strcmp(hi[1].name + length - 3, ".lo") == 0;
 }
 
-static void print_pixel(const accel_image *a, const accel_image *b, size_t pixel)
+static void print_pixel(const struct image *a, const struct image *b, size_t pixel)
 {
     printf("pixel (%zu, %zu):", pixel % a->width, pixel / a->width);
     for (uint32_t i = 0; i < a->channel_count; i++) {
-        const accel_channel *ca = &a->channels[i], *cb = &b->channels[i];
+        const struct image_channel *ca = &a->channels[i], *cb = &b->channels[i];
         const bool whole = is_double(a, i);
         const bool differs = ca[0].bits[pixel] != cb[0].bits[pixel] ||
                              (whole && ca[1].bits[pixel] != cb[1].bits[pixel]);
@@ -99,7 +99,7 @@ static void print_pixel(const accel_image *a, const accel_image *b, size_t pixel
     printf("\n");
 }
 
-static uint64_t compare(const accel_image *a, const accel_image *b, unsigned char *picture)
+static uint64_t compare(const struct image *a, const struct image *b, unsigned char *picture)
 {
     uint64_t different = 0;
     const size_t pixels = (size_t)a->width * a->height;
@@ -115,97 +115,95 @@ static uint64_t compare(const accel_image *a, const accel_image *b, unsigned cha
     return different;
 }
 
-static int diff_images(const accel_command *command, char *const names[2], const accel_image *a,
-                       const accel_image *b, accel_output *output)
+static int diff_images(const struct command *command, char *const names[2], const struct image *a,
+                       const struct image *b, struct output *output)
 {
     const char *trouble = why_not_comparable(a, b);
     if (trouble != NULL) {
-        return accel_complain(command, "%.100s and %.100s %s and cannot be compared", names[0],
-                              names[1], trouble);
+        return complain(command, "%.100s and %.100s %s and cannot be compared", names[0], names[1],
+                        trouble);
     }
     unsigned char *picture = malloc((size_t)a->width * a->height * 3);
     if (picture == NULL) {
-        return accel_complain(command, "out of memory; nothing was compared");
+        return complain(command, "out of memory; nothing was compared");
     }
     const uint64_t different = compare(a, b, picture);
     accel_error error;
-    const bool written =
-        output == NULL || accel_write_png(picture, a->width, a->height, output, &error);
+    const bool written = output == NULL || png_write(picture, a->width, a->height, output, &error);
     free(picture);
     if (!written) {
-        return accel_complain(command, "%s", error.text);
+        return complain(command, "%s", error.text);
     }
-    return different == 0 ? ACCEL_EXIT_FINE : ACCEL_EXIT_DIFFERENT;
+    return different == 0 ? EXIT_FINE : EXIT_DIFFERENT;
 }
 
 /* `output` is NULL where no picture is asked for. */
-static int diff_files(const accel_command *command, char *const names[2], accel_output *output)
+static int diff_files(const struct command *command, char *const names[2], struct output *output)
 {
-    static accel_image a, b;
+    static struct image a, b;
     accel_error error;
-    if (!accel_image_read_exr(&a, names[0], &error)) {
-        return accel_complain(command, "%s", error.text);
+    if (!image_read_exr(&a, names[0], &error)) {
+        return complain(command, "%s", error.text);
     }
-    int code = ACCEL_EXIT_BAD;
-    if (accel_image_read_exr(&b, names[1], &error)) {
+    int code = EXIT_BAD;
+    if (image_read_exr(&b, names[1], &error)) {
         code = diff_images(command, names, &a, &b, output);
-        accel_image_free(&b);
+        image_free(&b);
     } else {
-        accel_complain(command, "%s", error.text);
+        complain(command, "%s", error.text);
     }
-    accel_image_free(&a);
+    image_free(&a);
     return code;
 }
 
-static int diff_into_file(const accel_command *command, char *const names[2], const char *path)
+static int diff_into_file(const struct command *command, char *const names[2], const char *path)
 {
-    accel_output output;
+    struct output output;
     accel_error error;
     if (path == NULL) {
         return diff_files(command, names, NULL);
     }
-    if (!accel_output_open(&output, path, &error)) {
-        return accel_complain(command, "%s", error.text);
+    if (!output_open(&output, path, &error)) {
+        return complain(command, "%s", error.text);
     }
-    return accel_end_output(&output, diff_files(command, names, &output), ACCEL_EXIT_DIFFERENT,
-                            command);
+    return end_output(&output, diff_files(command, names, &output), EXIT_DIFFERENT, command);
 }
 
-static int run(const accel_command *command, int argc, char **argv)
+static int run(const struct command *command, int argc, char **argv)
 {
-    accel_arguments arguments = accel_arguments_start(command, argc, argv);
+    struct arguments arguments = arguments_start(command, argc, argv);
     char *names[2] = {NULL, NULL};
     const char *output = NULL;
     size_t count = 0;
     for (;;) {
-        switch (accel_next_argument(&arguments)) {
-        case ACCEL_ARGUMENT_STOP:
+        switch (next_argument(&arguments)) {
+        case ARGUMENT_STOP:
             return arguments.exit_code;
         case FLAG_OUTPUT:
             output = arguments.value;
             break;
-        case ACCEL_ARGUMENT_WORD:
+        case ARGUMENT_WORD:
             if (count == 2) {
-                return accel_complain(command, "unexpected '%.60s': two files are enough",
-                                      arguments.value);
+                return complain(command, "unexpected '%.60s': two files are enough",
+                                arguments.value);
             }
             names[count++] = argv[arguments.at - 1];
             break;
         default:
             if (count < 2) {
-                return accel_complain(command, "two files are needed; usage: accel %s %s",
-                                      command->name, command->arguments);
+                return complain(command, "two files are needed; usage: accel %s %s", command->name,
+                                command->arguments);
             }
-            if (output != NULL && !accel_ends_with(output, ".png")) {
-                return accel_complain(
-                    command, "-o '%.100s' does not end in .png; nothing was written", output);
+            if (output != NULL && !ends_with(output, ".png")) {
+                return complain(command, "-o '%.100s' does not end in .png; nothing was written",
+                                output);
             }
             return diff_into_file(command, names, output);
         }
     }
 }
 
-const accel_command accel_command_diff = {
+const struct command command_diff = {
     .name = "diff",
     .arguments = "A.exr B.exr [-o FILE.png]",
     .summary = "compare two OpenEXR files of hits, bit for bit",

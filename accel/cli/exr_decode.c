@@ -17,13 +17,13 @@ static void say_nothing(exr_const_context_t context, exr_result_t code, const ch
 static int64_t size_of_stream(exr_const_context_t context, void *user)
 {
     (void)context;
-    return (int64_t)((const accel_file *)user)->size;
+    return (int64_t)((const struct file *)user)->size;
 }
 
 static int64_t read_bytes(exr_const_context_t context, void *user, void *to, uint64_t count,
                           uint64_t offset, exr_stream_error_func_ptr_t complain)
 {
-    const accel_file *file = user;
+    const struct file *file = user;
     if (offset > file->size) {
         complain(context, EXR_ERR_READ_IO, "the file ends before");
         return -1;
@@ -56,18 +56,18 @@ static const char *check_kind(exr_context_t context)
 /* Names are shown on terminals. */
 static bool is_name(const exr_attr_string_t *name)
 {
-    bool fine = name->length > 0 && name->length < ACCEL_CHANNEL_NAME;
+    bool fine = name->length > 0 && name->length < CHANNEL_NAME;
     for (int32_t i = 0; fine && i < name->length; i++) {
         fine = name->str[i] >= ' ' && name->str[i] <= '~';
     }
     return fine;
 }
 
-static const char *read_channels(exr_context_t context, accel_image *image)
+static const char *read_channels(exr_context_t context, struct image *image)
 {
     const exr_attr_chlist_t *list;
     if (exr_get_channels(context, 0, &list) != EXR_ERR_SUCCESS || list->num_channels < 1 ||
-        list->num_channels > ACCEL_MOST_CHANNELS) {
+        list->num_channels > MOST_CHANNELS) {
         return "has no channel or more than 64";
     }
     for (int i = 0; i < list->num_channels; i++) {
@@ -76,14 +76,14 @@ static const char *read_channels(exr_context_t context, accel_image *image)
             return "has a subsampled channel, or one whose name is not of 1 to 31 printable ASCII "
                    "characters";
         }
-        accel_channel *channel = &image->channels[image->channel_count++];
+        struct image_channel *channel = &image->channels[image->channel_count++];
         memcpy(channel->name, entry->name.str, (size_t)entry->name.length);
         channel->is_float = entry->pixel_type != EXR_PIXEL_UINT;
     }
     return NULL;
 }
 
-static const char *read_size(exr_context_t context, accel_image *image, size_t file_bytes)
+static const char *read_size(exr_context_t context, struct image *image, size_t file_bytes)
 {
     exr_attr_box2i_t window;
     if (exr_get_data_window(context, 0, &window) != EXR_ERR_SUCCESS) {
@@ -91,22 +91,22 @@ static const char *read_size(exr_context_t context, accel_image *image, size_t f
     }
     const int64_t width = (int64_t)window.max.x - window.min.x + 1;
     const int64_t height = (int64_t)window.max.y - window.min.y + 1;
-    if (width < 1 || height < 1 || width > ACCEL_MOST_PIXELS || height > ACCEL_MOST_PIXELS ||
-        width * height > ACCEL_MOST_PIXELS) {
+    if (width < 1 || height < 1 || width > MOST_PIXELS || height > MOST_PIXELS ||
+        width * height > MOST_PIXELS) {
         return "has no pixel or more than 2^26";
     }
     image->width = (uint32_t)width;
     image->height = (uint32_t)height;
     /* a half takes two bytes; nothing takes less */
     const uint64_t least = (uint64_t)width * (uint64_t)height * image->channel_count * 2;
-    return least / ACCEL_EXR_BEST_RATIO > file_bytes
+    return least / EXR_BEST_RATIO > file_bytes
                ? "promises more pixels than its bytes can hold: is it "
                  "truncated"
                : NULL;
 }
 
 /* Points the decoder at row y of each channel; both list the channels by name. */
-static void point_at_row(exr_decode_pipeline_t *decoder, const accel_image *image, uint32_t y)
+static void point_at_row(exr_decode_pipeline_t *decoder, const struct image *image, uint32_t y)
 {
     for (int i = 0; i < decoder->channel_count; i++) {
         exr_coding_channel_info_t *channel = &decoder->channels[i];
@@ -140,7 +140,7 @@ static uint64_t run_length_bytes(const signed char *at, uint64_t left)
 /* Are all of the chunk's pixels there? OpenEXRCore leaves those that are not as its memory was (its
  * pull requests 2156 and 2162, after Debian's version); of ZIP it checks the length itself. A chunk
  * that is as long as its pixels is not compressed. */
-static bool is_whole(const exr_chunk_info_t *chunk, const accel_file *file)
+static bool is_whole(const exr_chunk_info_t *chunk, const struct file *file)
 {
     if (chunk->data_offset > file->size || chunk->packed_size > file->size - chunk->data_offset) {
         return false;
@@ -160,8 +160,8 @@ static bool is_whole(const exr_chunk_info_t *chunk, const accel_file *file)
 }
 
 /* Decodes the chunk that begins with row y of the image; the first one sets up the decoder. */
-static exr_result_t read_chunk(exr_context_t context, const accel_image *image,
-                               const accel_file *file, uint32_t y, exr_decode_pipeline_t *decoder)
+static exr_result_t read_chunk(exr_context_t context, const struct image *image,
+                               const struct file *file, uint32_t y, exr_decode_pipeline_t *decoder)
 {
     exr_attr_box2i_t window;
     exr_chunk_info_t chunk;
@@ -183,8 +183,8 @@ static exr_result_t read_chunk(exr_context_t context, const accel_image *image,
     return result == EXR_ERR_SUCCESS ? exr_decoding_run(context, 0, decoder) : result;
 }
 
-static const char *read_rows(exr_context_t context, const accel_image *image,
-                             const accel_file *file)
+static const char *read_rows(exr_context_t context, const struct image *image,
+                             const struct file *file)
 {
     exr_decode_pipeline_t decoder = EXR_DECODE_PIPELINE_INITIALIZER;
     int32_t rows = 1;
@@ -196,7 +196,7 @@ static const char *read_rows(exr_context_t context, const accel_image *image,
     return result == EXR_ERR_SUCCESS ? NULL : exr_get_default_error_message(result);
 }
 
-static const char *read_image(exr_context_t context, accel_image *image, const accel_file *file)
+static const char *read_image(exr_context_t context, struct image *image, const struct file *file)
 {
     const char *trouble = check_kind(context);
     trouble = trouble == NULL ? read_channels(context, image) : trouble;
@@ -208,7 +208,7 @@ static const char *read_image(exr_context_t context, accel_image *image, const a
     return trouble == NULL ? read_rows(context, image, file) : trouble;
 }
 
-const char *accel_exr_decode(accel_image *image, const accel_file *file)
+const char *exr_decode(struct image *image, const struct file *file)
 {
     exr_context_initializer_t initializer = EXR_DEFAULT_CONTEXT_INITIALIZER;
     initializer.error_handler_fn = say_nothing;
@@ -216,13 +216,13 @@ const char *accel_exr_decode(accel_image *image, const accel_file *file)
     initializer.size_fn = size_of_stream;
     initializer.user_data = (void *)(uintptr_t)file;
     exr_context_t context = NULL;
-    *image = (accel_image){0};
+    *image = (struct image){0};
     const exr_result_t result = exr_start_read(&context, file->path, &initializer);
     const char *trouble = result == EXR_ERR_SUCCESS ? read_image(context, image, file)
                                                     : exr_get_default_error_message(result);
     exr_finish(&context);
     if (trouble != NULL) {
-        accel_image_free(image);
+        image_free(image);
     }
     return trouble;
 }

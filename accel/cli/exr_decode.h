@@ -10,9 +10,9 @@
 #include "image.h"
 
 /* The bytes that a byte of a file may become at most. */
-enum { ACCEL_EXR_BEST_RATIO = 1032 };
+enum { EXR_BEST_RATIO = 1032 };
 
 /* Reads an image. Returns NULL, or what is wrong and holds nothing. */
-const char *accel_exr_decode(accel_image *image, const accel_file *file);
+const char *exr_decode(struct image *image, const struct file *file);
 
 #endif

@@ -18,7 +18,7 @@ static void say_nothing(exr_const_context_t context, exr_result_t code, const ch
 static int64_t write_bytes(exr_const_context_t context, void *user, const void *bytes,
                            uint64_t count, uint64_t offset, exr_stream_error_func_ptr_t complain)
 {
-    accel_output *output = user;
+    struct output *output = user;
     const char *at = bytes;
     uint64_t done = 0;
     while (done < count) {
@@ -34,7 +34,7 @@ static int64_t write_bytes(exr_const_context_t context, void *user, const void *
     return (int64_t)done;
 }
 
-static exr_result_t declare(exr_context_t context, const accel_image *image)
+static exr_result_t declare(exr_context_t context, const struct image *image)
 {
     int part;
     exr_result_t result = exr_add_part(context, "hits", EXR_STORAGE_SCANLINE, &part);
@@ -51,7 +51,7 @@ static exr_result_t declare(exr_context_t context, const accel_image *image)
 }
 
 /* Points the encoder at row y of each channel; both list the channels by name. */
-static void point_at_row(exr_encode_pipeline_t *encoder, const accel_image *image, uint32_t y)
+static void point_at_row(exr_encode_pipeline_t *encoder, const struct image *image, uint32_t y)
 {
     for (int i = 0; i < encoder->channel_count; i++) {
         exr_coding_channel_info_t *channel = &encoder->channels[i];
@@ -91,7 +91,7 @@ static exr_result_t choose_routines(exr_context_t context, exr_encode_pipeline_t
     return result;
 }
 
-static exr_result_t write_rows(exr_context_t context, const accel_image *image)
+static exr_result_t write_rows(exr_context_t context, const struct image *image)
 {
     exr_encode_pipeline_t encoder = EXR_ENCODE_PIPELINE_INITIALIZER;
     compression standard;
@@ -116,7 +116,7 @@ static exr_result_t write_rows(exr_context_t context, const accel_image *image)
     return result;
 }
 
-bool accel_image_write_exr(const accel_image *image, accel_output *output, accel_error *error)
+bool image_write_exr(const struct image *image, struct output *output, accel_error *error)
 {
     exr_context_initializer_t initializer = EXR_DEFAULT_CONTEXT_INITIALIZER;
     initializer.error_handler_fn = say_nothing;
@@ -136,5 +136,5 @@ bool accel_image_write_exr(const accel_image *image, accel_output *output, accel
     if (result == EXR_ERR_SUCCESS && output->trouble == 0) {
         return true;
     }
-    return accel_output_failed(output, exr_get_default_error_message(result), error);
+    return output_failed(output, exr_get_default_error_message(result), error);
 }

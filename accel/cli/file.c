@@ -18,7 +18,7 @@
 /* Enough for 10^8 triangles in text; beyond it a file is a mistake or an attack. */
 #define MOST_FILE_BYTES ((uint64_t)8 << 30)
 
-bool accel_file_fail(const char *path, const char *trouble, accel_error *error)
+bool file_fail(const char *path, const char *trouble, accel_error *error)
 {
     error->status = ACCEL_BAD_ARGUMENT;
     snprintf(error->text, sizeof error->text, "%.200s: %s; nothing was loaded", path, trouble);
@@ -44,7 +44,7 @@ static const char *why_not_a_file(int descriptor, uint64_t *size)
     return *size > MOST_FILE_BYTES ? "is larger than 8 GiB" : NULL;
 }
 
-static const char *read_all(int descriptor, accel_file *file)
+static const char *read_all(int descriptor, struct file *file)
 {
     size_t done = 0;
     while (done < file->size) {
@@ -60,7 +60,7 @@ static const char *read_all(int descriptor, accel_file *file)
     return NULL;
 }
 
-static const char *read_open_file(int descriptor, accel_file *file)
+static const char *read_open_file(int descriptor, struct file *file)
 {
     uint64_t size = 0;
     const char *trouble = why_not_a_file(descriptor, &size);
@@ -72,7 +72,7 @@ static const char *read_open_file(int descriptor, accel_file *file)
     if (file->bytes == NULL) {
         return "does not fit into memory";
     }
-    accel_memory_large_pages(file->bytes, file->size);
+    memory_large_pages(file->bytes, file->size);
     trouble = read_all(descriptor, file);
     if (trouble != NULL) {
         free(file->bytes);
@@ -87,26 +87,26 @@ static int open_file(const char *path)
     return open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
 }
 
-bool accel_file_there(const char *path, accel_error *error)
+bool file_there(const char *path, accel_error *error)
 {
     uint64_t size;
     const int descriptor = open_file(path);
     if (descriptor < 0) {
-        return accel_file_fail(path, strerror(errno), error);
+        return file_fail(path, strerror(errno), error);
     }
     const char *trouble = why_not_a_file(descriptor, &size);
     close(descriptor);
-    return trouble == NULL || accel_file_fail(path, trouble, error);
+    return trouble == NULL || file_fail(path, trouble, error);
 }
 
-bool accel_file_read(accel_file *file, const char *path, accel_error *error)
+bool file_read(struct file *file, const char *path, accel_error *error)
 {
-    *file = (accel_file){.path = path};
+    *file = (struct file){.path = path};
     const int descriptor = open_file(path);
     if (descriptor < 0) {
-        return accel_file_fail(path, strerror(errno), error);
+        return file_fail(path, strerror(errno), error);
     }
     const char *trouble = read_open_file(descriptor, file);
     close(descriptor);
-    return trouble == NULL || accel_file_fail(path, trouble, error);
+    return trouble == NULL || file_fail(path, trouble, error);
 }

@@ -8,19 +8,19 @@
 #include <accel/accel.h>
 
 /* A whole file in memory. */
-typedef struct accel_file {
+struct file {
     const char *path; /* as the user gave it */
     char *bytes;      /* `size` of them and a zero behind; freed by the caller */
     size_t size;
-} accel_file;
+};
 
 /* Is it a regular file that can be read? Otherwise fills error->text. */
-bool accel_file_there(const char *path, accel_error *error);
+bool file_there(const char *path, accel_error *error);
 
 /* Reads a regular file. Otherwise fills error->text and holds nothing. */
-bool accel_file_read(accel_file *file, const char *path, accel_error *error);
+bool file_read(struct file *file, const char *path, accel_error *error);
 
 /* Fills error->text with "path: trouble; nothing was loaded" and returns false. */
-bool accel_file_fail(const char *path, const char *trouble, accel_error *error);
+bool file_fail(const char *path, const char *trouble, accel_error *error);
 
 #endif

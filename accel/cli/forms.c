@@ -7,15 +7,15 @@
 #include <stdio.h>
 
 /* KIND, or KIND:key=word for an option. */
-static void add(accel_forms *f, const char *kind, const char *key, const char *word)
+static void add(struct forms *f, const char *kind, const char *key, const char *word)
 {
-    if (f->count == ACCEL_MOST_FORMS) {
+    if (f->count == MOST_FORMS) {
         return;
     }
     snprintf(f->at[f->count++], sizeof f->at[0], key == NULL ? "%s" : "%s:%s=%s", kind, key, word);
 }
 
-static void add_words(accel_forms *f, const char *kind, const accel_option *option)
+static void add_words(struct forms *f, const char *kind, const accel_option *option)
 {
     for (size_t w = 0; option->words != NULL && option->words[w] != NULL; w++) {
         if ((double)w != option->standard) {
@@ -24,9 +24,9 @@ static void add_words(accel_forms *f, const char *kind, const accel_option *opti
     }
 }
 
-accel_forms accel_forms_of_kinds(accel_form_wanted *wanted)
+struct forms forms_of_kinds(form_wanted *wanted)
 {
-    accel_forms f = {.count = 0};
+    struct forms f = {.count = 0};
     size_t kinds;
     const accel_kind_info *const *kind = accel_kinds(&kinds);
     for (size_t i = 0; i < kinds; i++) {

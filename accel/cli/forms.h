@@ -8,17 +8,17 @@
 
 #include <accel/accel.h>
 
-enum { ACCEL_MOST_FORMS = 64 };
+enum { MOST_FORMS = 64 };
 
-typedef struct accel_forms {
-    char at[ACCEL_MOST_FORMS][80]; /* CONFIGs */
+struct forms {
+    char at[MOST_FORMS][80]; /* CONFIGs */
     size_t count;
-} accel_forms;
+};
 
 /* Is a word of this option a form to be listed? */
-typedef bool accel_form_wanted(const accel_option *option);
+typedef bool form_wanted(const accel_option *option);
 
 /* In the order of accel_kinds: linear first, auto last. wanted: NULL for every option. */
-accel_forms accel_forms_of_kinds(accel_form_wanted *wanted);
+struct forms forms_of_kinds(form_wanted *wanted);
 
 #endif

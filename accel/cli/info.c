@@ -10,7 +10,7 @@
 
 enum { FLAG_CONFIG };
 
-static const accel_flag flags[] = {
+static const struct flag flags[] = {
     {"accelerator", 'a', "CONFIG",
      "structure to build, may be repeated (default: " ACCEL_DEFAULT_CONFIG ")"},
 };
@@ -77,12 +77,12 @@ static void print_info(const accel *a)
     print_time(&info);
 }
 
-static void print_scene(const char *name, const accel_loaded *loaded)
+static void print_scene(const char *name, const struct loaded *loaded)
 {
     accel_box box;
     printf("%s: %" PRIu64 " primitives in %" PRIu32 " geometries", name,
-           accel_scene_primitives(&loaded->scene), loaded->scene.count);
-    if (accel_scene_box(&loaded->scene, &box)) {
+           scene_primitives(&loaded->scene), loaded->scene.count);
+    if (scene_box(&loaded->scene, &box)) {
         printf(", box (%.9g %.9g %.9g) to (%.9g %.9g %.9g)", box.lo[0], box.lo[1], box.lo[2],
                box.hi[0], box.hi[1], box.hi[2]);
     }
@@ -92,19 +92,19 @@ static void print_scene(const char *name, const accel_loaded *loaded)
     printf("\n");
 }
 
-static int describe(const accel_command *command, const char *scene, const accel_configs *configs,
+static int describe(const struct command *command, const char *scene, const struct configs *configs,
                     bool quiet)
 {
-    accel_progress progress = accel_progress_start(quiet);
-    accel_loaded loaded;
-    if (!accel_open_scene(&loaded, scene, command, &progress)) {
-        return ACCEL_EXIT_BAD;
+    struct progress progress = progress_start(quiet);
+    struct loaded loaded;
+    if (!open_scene(&loaded, scene, command, &progress)) {
+        return EXIT_BAD;
     }
-    int code = ACCEL_EXIT_FINE;
-    for (size_t i = 0; i < configs->count && code == ACCEL_EXIT_FINE; i++) {
-        accel *a = accel_open_structure(&loaded, configs->items[i], command, &progress);
+    int code = EXIT_FINE;
+    for (size_t i = 0; i < configs->count && code == EXIT_FINE; i++) {
+        accel *a = open_structure(&loaded, configs->items[i], command, &progress);
         if (a == NULL) {
-            code = ACCEL_EXIT_BAD;
+            code = EXIT_BAD;
         } else {
             if (i == 0) {
                 print_scene(scene, &loaded);
@@ -113,33 +113,33 @@ static int describe(const accel_command *command, const char *scene, const accel
         }
         accel_free(a);
     }
-    accel_unload_scene(&loaded);
+    unload_scene(&loaded);
     return code;
 }
 
-static int run(const accel_command *command, int argc, char **argv)
+static int run(const struct command *command, int argc, char **argv)
 {
-    accel_arguments arguments = accel_arguments_start(command, argc, argv);
-    accel_configs configs = {0};
+    struct arguments arguments = arguments_start(command, argc, argv);
+    struct configs configs = {0};
     const char *scene = NULL;
     for (;;) {
-        switch (accel_next_argument(&arguments)) {
-        case ACCEL_ARGUMENT_STOP:
+        switch (next_argument(&arguments)) {
+        case ARGUMENT_STOP:
             return arguments.exit_code;
         case FLAG_CONFIG:
-            if (!accel_configs_add(&configs, arguments.value, command)) {
-                return ACCEL_EXIT_BAD;
+            if (!configs_add(&configs, arguments.value, command)) {
+                return EXIT_BAD;
             }
             break;
-        case ACCEL_ARGUMENT_WORD:
-            if (!accel_one_word(&arguments, "SCENE", &scene)) {
-                return ACCEL_EXIT_BAD;
+        case ARGUMENT_WORD:
+            if (!one_word(&arguments, "SCENE", &scene)) {
+                return EXIT_BAD;
             }
             break;
         default:
             if (scene == NULL) {
-                return accel_complain(command, "no SCENE is given; usage: accel %s %s",
-                                      command->name, command->arguments);
+                return complain(command, "no SCENE is given; usage: accel %s %s", command->name,
+                                command->arguments);
             }
             if (configs.count == 0) {
                 configs.items[configs.count++] = ACCEL_DEFAULT_CONFIG;
@@ -149,7 +149,7 @@ static int run(const accel_command *command, int argc, char **argv)
     }
 }
 
-const accel_command accel_command_info = {
+const struct command command_info = {
     .name = "info",
     .arguments = "SCENE [-a CONFIG]...",
     .summary = "build structures over a scene and describe them",

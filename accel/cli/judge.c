@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-bool accel_same_hit(const accel_hit *a, const accel_hit *b)
+bool same_hit(const accel_hit *a, const accel_hit *b)
 {
     return memcmp(&a->t, &b->t, sizeof a->t) == 0 && memcmp(&a->u, &b->u, sizeof a->u) == 0 &&
            memcmp(&a->v, &b->v, sizeof a->v) == 0 && a->geom == b->geom && a->prim == b->prim;
@@ -14,20 +14,20 @@ bool accel_same_hit(const accel_hit *a, const accel_hit *b)
 
 static bool keep_hit(void *user, const accel_hit *hit)
 {
-    accel_answers *answers = user;
+    struct answers *answers = user;
     answers->all[answers->all_count++] = *hit;
-    return answers->all_count < ACCEL_KEPT;
+    return answers->all_count < KEPT;
 }
 
 static bool keep_id(void *user, accel_id id)
 {
-    accel_answers *answers = user;
+    struct answers *answers = user;
     answers->point[answers->point_count++] = id;
-    return answers->point_count < ACCEL_KEPT;
+    return answers->point_count < KEPT;
 }
 
-void accel_ask_judge(const accel *judge, const accel_question *question, accel_query *query,
-                     accel_answers *answers)
+void ask_judge(const accel *judge, const struct question *question, accel_query *query,
+               struct answers *answers)
 {
     const accel_hit nothing = {-1.0, -2.0, -3.0, 4, 5};
     answers->closest = nothing;
@@ -35,30 +35,30 @@ void accel_ask_judge(const accel *judge, const accel_question *question, accel_q
     answers->point_count = 0;
     answers->found = accel_closest(judge, &question->ray, &answers->closest, query);
     answers->any = answers->found;
-    answers->untouched = answers->found || accel_same_hit(&answers->closest, &nothing);
+    answers->untouched = answers->found || same_hit(&answers->closest, &nothing);
     if (question->lists) {
         accel_all(judge, &question->ray, keep_hit, answers, query);
         accel_point(judge, question->point, keep_id, answers, query);
     }
 }
 
-void accel_ask(const accel *a, const accel_question *question, accel_query *query,
-               accel_answers *answers)
+void ask(const accel *a, const struct question *question, accel_query *query,
+         struct answers *answers)
 {
-    accel_ask_judge(a, question, query, answers);
+    ask_judge(a, question, query, answers);
     answers->any = accel_any(a, &question->ray, query);
 }
 
-static bool same_list(const accel_answers *expected, const accel_answers *got)
+static bool same_list(const struct answers *expected, const struct answers *got)
 {
     bool same = expected->all_count == got->all_count;
     for (uint32_t i = 0; same && i < expected->all_count; i++) {
-        same = accel_same_hit(&expected->all[i], &got->all[i]);
+        same = same_hit(&expected->all[i], &got->all[i]);
     }
     return same;
 }
 
-static bool same_ids(const accel_answers *expected, const accel_answers *got)
+static bool same_ids(const struct answers *expected, const struct answers *got)
 {
     bool same = expected->point_count == got->point_count;
     for (uint32_t i = 0; same && i < expected->point_count; i++) {
@@ -68,22 +68,22 @@ static bool same_ids(const accel_answers *expected, const accel_answers *got)
     return same;
 }
 
-unsigned accel_differences(const accel_question *question, const accel_answers *expected,
-                           const accel_answers *got)
+unsigned count_differences(const struct question *question, const struct answers *expected,
+                           const struct answers *got)
 {
     unsigned differences = 0;
     if (expected->found != got->found || !got->untouched ||
-        (got->found && !accel_same_hit(&expected->closest, &got->closest))) {
-        differences |= ACCEL_DIFFERS_CLOSEST;
+        (got->found && !same_hit(&expected->closest, &got->closest))) {
+        differences |= DIFFERS_CLOSEST;
     }
     if (expected->found != got->any) {
-        differences |= ACCEL_DIFFERS_ANY;
+        differences |= DIFFERS_ANY;
     }
     if (question->lists && !same_list(expected, got)) {
-        differences |= ACCEL_DIFFERS_ALL;
+        differences |= DIFFERS_ALL;
     }
     if (question->lists && !same_ids(expected, got)) {
-        differences |= ACCEL_DIFFERS_POINT;
+        differences |= DIFFERS_POINT;
     }
     return differences;
 }

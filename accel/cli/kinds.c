@@ -44,16 +44,16 @@ static void print_kind(const accel_kind_info *kind)
     }
 }
 
-static int run(const accel_command *command, int argc, char **argv)
+static int run(const struct command *command, int argc, char **argv)
 {
-    accel_arguments arguments = accel_arguments_start(command, argc, argv);
-    switch (accel_next_argument(&arguments)) {
-    case ACCEL_ARGUMENT_END:
+    struct arguments arguments = arguments_start(command, argc, argv);
+    switch (next_argument(&arguments)) {
+    case ARGUMENT_END:
         break;
-    case ACCEL_ARGUMENT_STOP:
+    case ARGUMENT_STOP:
         return arguments.exit_code;
     default:
-        return accel_complain(command, "unexpected '%.60s': it takes no argument", arguments.value);
+        return complain(command, "unexpected '%.60s': it takes no argument", arguments.value);
     }
     size_t count;
     const accel_kind_info *const *kinds = accel_kinds(&count);
@@ -62,15 +62,15 @@ static int run(const accel_command *command, int argc, char **argv)
     for (size_t i = 0; i < count; i++) {
         print_kind(kinds[i]);
     }
-    kinds = accel_scene_kinds(&count);
+    kinds = scene_kinds(&count);
     printf("\nBuilt-in scenes, SCENE = name[:key=value[,key=value]...]:\n\n");
     for (size_t i = 0; i < count; i++) {
         print_kind(kinds[i]);
     }
-    return ACCEL_EXIT_FINE;
+    return EXIT_FINE;
 }
 
-const accel_command accel_command_kinds = {
+const struct command command_kinds = {
     .name = "kinds",
     .arguments = "",
     .summary = "list the kinds of structure and the built-in scenes with their options",

@@ -18,7 +18,7 @@
 
 enum { FLAG_CONFIG, FLAG_RAYS, FLAG_REPEATS, FLAG_CSV };
 
-static const accel_flag flags[] = {
+static const struct flag flags[] = {
     [FLAG_CONFIG] = {"accelerator", 'a', "CONFIG",
                      "structure that has the option lazy (default: hoo)"},
     [FLAG_RAYS] = {"rays", 'n', "N", "rays of the render (default: 1000000)"},
@@ -33,8 +33,8 @@ enum { EAGER, LAZY, BOTH };
 
 /* What was asked for. */
 typedef struct request {
-    const accel_command *command;
-    accel_scene_names scenes;
+    const struct command *command;
+    struct scene_names scenes;
     const char *config;
     uint64_t rays, repeats;
     bool quiet;
@@ -54,8 +54,8 @@ typedef struct contender {
 /* One scene. */
 typedef struct race {
     const request *request;
-    accel_bench bench; /* scene and rays */
-    uint64_t rays;     /* of the render, at most as many as there are */
+    struct bench bench; /* scene and rays */
+    uint64_t rays;      /* of the render, at most as many as there are */
     uint64_t marks[MOST_MARKS];
     size_t mark_count;
     contender at[BOTH];
@@ -67,19 +67,17 @@ typedef struct race {
 /* Kinds of rays in the render. Where nothing is hit, there are only primary ones. */
 static unsigned kinds_of_rays(const race *r)
 {
-    return r->bench.sets[ACCEL_SET_BOUNCE].count > 0 && r->bench.sets[ACCEL_SET_SHADOW].count > 0
-               ? 3
-               : 1;
+    return r->bench.sets[SET_BOUNCE].count > 0 && r->bench.sets[SET_SHADOW].count > 0 ? 3 : 1;
 }
 
 static bool make_rays(race *r, const accel *a)
 {
-    static const int sets[] = {ACCEL_SET_PRIMARY, ACCEL_SET_BOUNCE, ACCEL_SET_SHADOW};
+    static const int sets[] = {SET_PRIMARY, SET_BOUNCE, SET_SHADOW};
     const size_t count = (size_t)r->request->rays / 3 + 1;
     uint64_t least = count;
     for (size_t i = 0; i < sizeof sets / sizeof *sets; i++) {
-        accel_ray_set *set = &r->bench.sets[sets[i]];
-        if (!accel_make_set(set, sets[i], count, a, &r->bench.loaded.scene)) {
+        struct ray_set *set = &r->bench.sets[sets[i]];
+        if (!make_set(set, sets[i], count, a, &r->bench.loaded.scene)) {
             return false;
         }
         least = set->count > 0 && set->count < least ? set->count : least;
@@ -101,8 +99,8 @@ static void set_marks(race *r)
 /* Ray `i` of the render: does it hit? */
 static bool trace_one(const race *r, const accel *a, uint64_t i, unsigned kinds)
 {
-    static const int sets[] = {ACCEL_SET_PRIMARY, ACCEL_SET_BOUNCE, ACCEL_SET_SHADOW};
-    const accel_ray_set *set = &r->bench.sets[sets[i % kinds]];
+    static const int sets[] = {SET_PRIMARY, SET_BOUNCE, SET_SHADOW};
+    const struct ray_set *set = &r->bench.sets[sets[i % kinds]];
     const accel_ray *ray = &set->rays[i / kinds];
     accel_hit hit;
     return set->any ? accel_any(a, ray, NULL) : accel_closest(a, ray, &hit, NULL);
@@ -116,16 +114,16 @@ static int take_turn(race *r, int which, size_t turn)
     accel *a;
     accel_error error;
     uint64_t found = 0, i = 0;
-    const double start = accel_machine_seconds();
+    const double start = machine_seconds();
     if (accel_build(&a, &r->bench.loaded.scene, c->config, NULL, &error) != ACCEL_OK) {
-        return accel_complain(r->request->command, "%s", error.text);
+        return complain(r->request->command, "%s", error.text);
     }
-    c->build[turn] = accel_machine_seconds() - start;
+    c->build[turn] = machine_seconds() - start;
     for (size_t m = 0; m < r->mark_count; m++) {
         for (; i < r->marks[m]; i++) {
             found += trace_one(r, a, i, kinds);
         }
-        c->seconds[m][turn] = accel_machine_seconds() - start;
+        c->seconds[m][turn] = machine_seconds() - start;
     }
     accel_describe(a, &c->info);
     accel_free(a);
@@ -133,27 +131,27 @@ static int take_turn(race *r, int which, size_t turn)
     if (found != r->found) {
         printf("DIFFERENT: %s: %s hits with %" PRIu64 " rays, %s with %" PRIu64 "\n",
                r->bench.scene_name, c->config, found, r->at[EAGER].config, r->found);
-        return ACCEL_EXIT_DIFFERENT;
+        return EXIT_DIFFERENT;
     }
-    return ACCEL_EXIT_FINE;
+    return EXIT_FINE;
 }
 
-static int take_turns(race *r, accel_progress *progress)
+static int take_turns(race *r, struct progress *progress)
 {
-    int code = ACCEL_EXIT_FINE;
-    for (size_t turn = 0; turn < r->request->repeats && code == ACCEL_EXIT_FINE; turn++) {
+    int code = EXIT_FINE;
+    for (size_t turn = 0; turn < r->request->repeats && code == EXIT_FINE; turn++) {
         progress->what = r->bench.scene_name;
-        accel_progress_show(progress, "timed", (double)turn / (double)r->request->repeats);
-        for (int which = 0; which < BOTH && code == ACCEL_EXIT_FINE; which++) {
+        progress_show(progress, "timed", (double)turn / (double)r->request->repeats);
+        for (int which = 0; which < BOTH && code == EXIT_FINE; which++) {
             code = take_turn(r, which, turn);
         }
     }
     progress->what = NULL;
-    accel_progress_clear(progress);
+    progress_clear(progress);
     for (int which = 0; which < BOTH; which++) {
-        accel_sort_values(r->at[which].build, r->request->repeats);
+        sort_values(r->at[which].build, r->request->repeats);
         for (size_t m = 0; m < r->mark_count; m++) {
-            accel_sort_values(r->at[which].seconds[m], r->request->repeats);
+            sort_values(r->at[which].seconds[m], r->request->repeats);
         }
     }
     return code;
@@ -164,16 +162,16 @@ static int take_turns(race *r, accel_progress *progress)
 static void print_head(const request *r)
 {
     char processor[256];
-    accel_machine_processor(processor, sizeof processor);
+    machine_processor(processor, sizeof processor);
     printf("%s\n%s\n"
            "ms of processor time of one thread, build and rays, median of %" PRIu64
            " turns; above 1 lazy is faster\n",
-           processor, accel_machine_build(), r->repeats);
+           processor, machine_build(), r->repeats);
 }
 
 static double median(const race *r, const double *seconds)
 {
-    return accel_quantile(seconds, r->request->repeats, 0.5);
+    return quantile(seconds, r->request->repeats, 0.5);
 }
 
 static void print_row(const race *r, const char *name, const double *eager, const double *lazy)
@@ -253,12 +251,12 @@ static void set_configs(race *r)
 }
 
 /* Both, built to be judged; linear judges a sample of them. */
-static int judge(race *r, accel *const both[BOTH], accel_progress *progress)
+static int judge(race *r, accel *const both[BOTH], struct progress *progress)
 {
-    accel_contender at[BOTH] = {{.state = both[EAGER]}, {.state = both[LAZY]}};
-    accel *linear = accel_open_structure(&r->bench.loaded, "linear", r->request->command, progress);
+    struct bench_contender at[BOTH] = {{.state = both[EAGER]}, {.state = both[LAZY]}};
+    accel *linear = open_structure(&r->bench.loaded, "linear", r->request->command, progress);
     if (linear == NULL) {
-        return ACCEL_EXIT_BAD;
+        return EXIT_BAD;
     }
     for (int i = 0; i < BOTH; i++) {
         snprintf(at[i].name, sizeof at[i].name, "%.63s", r->at[i].config);
@@ -266,21 +264,21 @@ static int judge(race *r, accel *const both[BOTH], accel_progress *progress)
     r->bench.reference_name = at[EAGER].name;
     r->bench.at = at;
     r->bench.count = BOTH;
-    const bool agree = accel_bench_judge(&r->bench, linear, JUDGED, progress);
+    const bool agree = bench_judge(&r->bench, linear, JUDGED, progress);
     r->bench.at = NULL;
     accel_free(linear);
-    return agree ? ACCEL_EXIT_FINE : ACCEL_EXIT_DIFFERENT;
+    return agree ? EXIT_FINE : EXIT_DIFFERENT;
 }
 
 /* Makes the rays and has both answer all of them. */
-static int prepare(race *r, accel_progress *progress)
+static int prepare(race *r, struct progress *progress)
 {
-    const accel_command *command = r->request->command;
+    const struct command *command = r->request->command;
     accel *both[BOTH] = {NULL, NULL};
-    int code = ACCEL_EXIT_BAD;
+    int code = EXIT_BAD;
     set_configs(r);
     for (int i = 0; i < BOTH; i++) {
-        both[i] = accel_open_structure(&r->bench.loaded, r->at[i].config, command, progress);
+        both[i] = open_structure(&r->bench.loaded, r->at[i].config, command, progress);
         if (both[i] == NULL) {
             break;
         }
@@ -288,21 +286,21 @@ static int prepare(race *r, accel_progress *progress)
     if (both[LAZY] != NULL) {
         code = make_rays(r, both[EAGER])
                    ? judge(r, both, progress)
-                   : accel_complain(command, "no memory for %" PRIu64 " rays", r->request->rays);
+                   : complain(command, "no memory for %" PRIu64 " rays", r->request->rays);
     }
     accel_free(both[EAGER]);
     accel_free(both[LAZY]);
     return code;
 }
 
-static int run_race(request *q, race *r, accel_progress *progress)
+static int run_race(request *q, race *r, struct progress *progress)
 {
     int code = prepare(r, progress);
-    if (code == ACCEL_EXIT_FINE) {
+    if (code == EXIT_FINE) {
         set_marks(r);
         code = take_turns(r, progress);
     }
-    if (code != ACCEL_EXIT_FINE) {
+    if (code != EXIT_FINE) {
         return code;
     }
     if (!q->headed) {
@@ -313,29 +311,29 @@ static int run_race(request *q, race *r, accel_progress *progress)
     if (q->csv != NULL) {
         write_csv(r, q->csv);
     }
-    return ACCEL_EXIT_FINE;
+    return EXIT_FINE;
 }
 
 static int run_scene(request *q, const char *name)
 {
-    accel_progress progress = accel_progress_start(q->quiet);
+    struct progress progress = progress_start(q->quiet);
     race r = {.request = q, .bench = {.scene_name = name}};
-    if (!accel_open_scene(&r.bench.loaded, name, q->command, &progress)) {
-        return ACCEL_EXIT_BAD;
+    if (!open_scene(&r.bench.loaded, name, q->command, &progress)) {
+        return EXIT_BAD;
     }
     const int code = run_race(q, &r, &progress);
-    for (int s = 0; s < ACCEL_SETS; s++) {
-        accel_free_set(&r.bench.sets[s]);
+    for (int s = 0; s < SETS; s++) {
+        free_set(&r.bench.sets[s]);
     }
-    accel_unload_scene(&r.bench.loaded);
+    unload_scene(&r.bench.loaded);
     fflush(stdout);
     return code;
 }
 
 static int run_scenes(request *q)
 {
-    int worst = ACCEL_EXIT_FINE;
-    for (size_t i = 0; i < q->scenes.count && worst != ACCEL_EXIT_BAD; i++) {
+    int worst = EXIT_FINE;
+    for (size_t i = 0; i < q->scenes.count && worst != EXIT_BAD; i++) {
         const int code = run_scene(q, q->scenes.items[i]);
         worst = code > worst ? code : worst;
     }
@@ -348,18 +346,18 @@ static int run_into_file(request *q)
     if (q->csv_name == NULL) {
         return run_scenes(q);
     }
-    accel_output output;
+    struct output output;
     accel_error error;
-    if (!accel_output_open(&output, q->csv_name, &error)) {
-        return accel_complain(q->command, "%s", error.text);
+    if (!output_open(&output, q->csv_name, &error)) {
+        return complain(q->command, "%s", error.text);
     }
     q->csv = output.file;
     fprintf(q->csv, "scene,config,rays,eager_seconds,lazy_seconds,render_rays,unbuilt_clusters,"
                     "clusters,unbuilt_primitives,primitives,lazy_bytes,eager_bytes\n");
-    return accel_end_output(&output, run_scenes(q), ACCEL_EXIT_FINE, q->command);
+    return end_output(&output, run_scenes(q), EXIT_FINE, q->command);
 }
 
-static bool take(accel_arguments *a, int flag, void *user)
+static bool take(struct arguments *a, int flag, void *user)
 {
     request *q = user;
     switch (flag) {
@@ -367,37 +365,36 @@ static bool take(accel_arguments *a, int flag, void *user)
         q->config = a->value;
         return true;
     case FLAG_RAYS:
-        return accel_whole_argument(a, flag, 1, 100000000, &q->rays);
+        return whole_argument(a, flag, 1, 100000000, &q->rays);
     case FLAG_REPEATS:
-        return accel_whole_argument(a, flag, 1, MOST_REPEATS, &q->repeats);
+        return whole_argument(a, flag, 1, MOST_REPEATS, &q->repeats);
     case FLAG_CSV:
         q->csv_name = a->value;
         return true;
     default:
-        return accel_scene_names_add(&q->scenes, a->value, q->command);
+        return scene_names_add(&q->scenes, a->value, q->command);
     }
 }
 
-static int run(const accel_command *command, int argc, char **argv)
+static int run(const struct command *command, int argc, char **argv)
 {
-    accel_arguments arguments = accel_arguments_start(command, argc, argv);
+    struct arguments arguments = arguments_start(command, argc, argv);
     request q = {.command = command, .config = "hoo", .rays = 1000000, .repeats = 5};
-    if (!accel_take_arguments(&arguments, take, &q)) {
+    if (!take_arguments(&arguments, take, &q)) {
         return arguments.exit_code;
     }
     if (q.scenes.count == 0) {
-        return accel_complain(command, "no SCENE is given; usage: accel %s %s", command->name,
-                              command->arguments);
+        return complain(command, "no SCENE is given; usage: accel %s %s", command->name,
+                        command->arguments);
     }
     if (strstr(q.config, ":lazy=") != NULL || strstr(q.config, ",lazy=") != NULL) {
-        return accel_complain(command, "-a '%.100s' sets lazy; leave it out, both are built",
-                              q.config);
+        return complain(command, "-a '%.100s' sets lazy; leave it out, both are built", q.config);
     }
     q.quiet = arguments.quiet;
     return run_into_file(&q);
 }
 
-const accel_command accel_command_lazy = {
+const struct command command_lazy = {
     .name = "lazy",
     .arguments = "SCENE... [-a CONFIG] [--rays N] [--csv FILE]",
     .summary = "time to the first rays: built where rays go, or before",

@@ -7,7 +7,7 @@
 #include <string.h>
 #include <time.h>
 
-void accel_machine_processor(char *text, size_t size)
+void machine_processor(char *text, size_t size)
 {
     char line[256];
     snprintf(text, size, "unknown processor");
@@ -25,7 +25,7 @@ void accel_machine_processor(char *text, size_t size)
     }
 }
 
-const char *accel_machine_build(void)
+const char *machine_build(void)
 {
     return "compiled by " ACCEL_COMPILER ", version " ACCEL_VERSION " at " ACCEL_COMMIT;
 }
@@ -37,12 +37,12 @@ static double seconds_of(clockid_t clock)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-double accel_machine_seconds(void)
+double machine_seconds(void)
 {
     return seconds_of(CLOCK_THREAD_CPUTIME_ID);
 }
 
-double accel_machine_seconds_of_all(void)
+double machine_seconds_of_all(void)
 {
     return seconds_of(CLOCK_PROCESS_CPUTIME_ID);
 }

@@ -8,15 +8,15 @@
 #include <stddef.h>
 
 /* The processor's name as the system gives it, without a line end. */
-void accel_machine_processor(char *text, size_t size);
+void machine_processor(char *text, size_t size);
 
 /* Compiler, its flags, version and commit, in one line. */
-const char *accel_machine_build(void);
+const char *machine_build(void);
 
 /* Seconds of processor time of the calling thread. */
-double accel_machine_seconds(void);
+double machine_seconds(void);
 
 /* The same of all threads together: what a build takes that may use others. */
-double accel_machine_seconds_of_all(void);
+double machine_seconds_of_all(void);
 
 #endif

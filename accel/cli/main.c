@@ -14,10 +14,10 @@
 #include <string.h>
 #include <unistd.h>
 
-static const accel_command *const commands[] = {
-    &accel_command_kinds,    &accel_command_info,    &accel_command_check,  &accel_command_trace,
-    &accel_command_diff,     &accel_command_export,  &accel_command_bench,  &accel_command_lazy,
-    &accel_command_clusters, &accel_command_photons, &accel_command_tables, &accel_command_report,
+static const struct command *const commands[] = {
+    &command_kinds,    &command_info,    &command_check,  &command_trace,
+    &command_diff,     &command_export,  &command_bench,  &command_lazy,
+    &command_clusters, &command_photons, &command_tables, &command_report,
 };
 
 enum { COMMANDS = sizeof commands / sizeof commands[0] };
@@ -37,7 +37,7 @@ static int print_overview(void)
         "left\n"
         "to assimp, unchecked. 'accel info --help' says what of each is read and what is not.\n"
         "Exit codes: 0 fine, 1 a difference was found, 2 bad usage or input.\n");
-    return ACCEL_EXIT_FINE;
+    return EXIT_FINE;
 }
 
 static int complain_of_command(const char *name)
@@ -45,25 +45,25 @@ static int complain_of_command(const char *name)
     const char *nearest = NULL;
     size_t distance = SIZE_MAX;
     for (size_t i = 0; i < COMMANDS; i++) {
-        accel_nearest_offer(name, strlen(name), commands[i]->name, &nearest, &distance);
+        nearest_offer(name, strlen(name), commands[i]->name, &nearest, &distance);
     }
     fprintf(stderr, "accel: unknown command '%.60s'%s%s; 'accel --help' lists all\n", name,
             nearest == NULL ? "" : "; nearest is ", nearest == NULL ? "" : nearest);
-    return ACCEL_EXIT_BAD;
+    return EXIT_BAD;
 }
 
 static int run(int argc, char **argv)
 {
     if (argc < 2) {
         fprintf(stderr, "usage: accel COMMAND [ARGUMENT]...; 'accel --help' lists the commands\n");
-        return ACCEL_EXIT_BAD;
+        return EXIT_BAD;
     }
     if (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0) {
         return print_overview();
     }
     if (strcmp(argv[1], "--version") == 0) {
         printf("accel %s\n", accel_version());
-        return ACCEL_EXIT_FINE;
+        return EXIT_FINE;
     }
     for (size_t i = 0; i < COMMANDS; i++) {
         if (strcmp(argv[1], commands[i]->name) == 0) {
@@ -106,5 +106,5 @@ int main(int argc, char **argv)
 {
     occupy_standard_files();
     const int code = run(argc, argv);
-    return all_printed() ? code : ACCEL_EXIT_BAD;
+    return all_printed() ? code : EXIT_BAD;
 }

@@ -75,14 +75,14 @@ static uint64_t free_of_process(void)
     return used < limit.rlim_cur ? limit.rlim_cur - used : 0;
 }
 
-uint64_t accel_memory_free(void)
+uint64_t memory_free(void)
 {
     const uint64_t machine = free_of_machine(), group = free_of_group(), own = free_of_process();
     const uint64_t least = machine < group ? machine : group;
     return least < own ? least : own;
 }
 
-void accel_memory_large_pages(void *block, size_t bytes)
+void memory_large_pages(void *block, size_t bytes)
 {
     enum { LARGE = 8 << 20 };
     const size_t page = (size_t)sysconf(_SC_PAGESIZE);

@@ -11,21 +11,21 @@
 #include <stdio.h>
 #include <string.h>
 
-static const accel_flag common[] = {
+static const struct flag common[] = {
     {"quiet", 'q', NULL, "no progress: results and errors only"},
     {"help", 'h', NULL, "print this and end"},
 };
 
 enum { COMMON = sizeof common / sizeof common[0], COMMON_FIRST = 1000 };
 
-accel_arguments accel_arguments_start(const accel_command *command, int argc, char **argv)
+struct arguments arguments_start(const struct command *command, int argc, char **argv)
 {
-    return (accel_arguments){.command = command, .argv = argv, .argc = argc, .at = 1};
+    return (struct arguments){.command = command, .argv = argv, .argc = argc, .at = 1};
 }
 
 /* Prints one line, whatever is in a file's name. */
 __attribute__((format(printf, 3, 0))) static void
-say(const accel_command *command, const char *what, const char *format, va_list list)
+say(const struct command *command, const char *what, const char *format, va_list list)
 {
     char text[1000];
     vsnprintf(text, sizeof text, format, list);
@@ -35,16 +35,16 @@ say(const accel_command *command, const char *what, const char *format, va_list 
     fprintf(stderr, "accel %s: %s%s\n", command->name, what, text);
 }
 
-int accel_complain(const accel_command *command, const char *format, ...)
+int complain(const struct command *command, const char *format, ...)
 {
     va_list list;
     va_start(list, format);
     say(command, "", format, list);
     va_end(list);
-    return ACCEL_EXIT_BAD;
+    return EXIT_BAD;
 }
 
-void accel_note(const accel_command *command, const char *format, ...)
+void note(const struct command *command, const char *format, ...)
 {
     va_list list;
     va_start(list, format);
@@ -52,7 +52,7 @@ void accel_note(const accel_command *command, const char *format, ...)
     va_end(list);
 }
 
-static void print_flag(const accel_flag *flag)
+static void print_flag(const struct flag *flag)
 {
     char left[60];
     int length = flag->letter == 0
@@ -74,7 +74,7 @@ static void print_flag(const accel_flag *flag)
     putchar('\n');
 }
 
-static void print_help(const accel_command *command)
+static void print_help(const struct command *command)
 {
     printf("usage: accel %s%s%s\n\n%s\n", command->name, *command->arguments == '\0' ? "" : " ",
            command->arguments, command->summary);
@@ -90,12 +90,12 @@ static void print_help(const accel_command *command)
     }
 }
 
-static const accel_flag *flag_at(const accel_command *command, int index)
+static const struct flag *flag_at(const struct command *command, int index)
 {
     return index >= COMMON_FIRST ? &common[index - COMMON_FIRST] : &command->flags[index];
 }
 
-static int find_letter(const accel_command *command, char letter)
+static int find_letter(const struct command *command, char letter)
 {
     for (size_t i = 0; i < command->flag_count; i++) {
         if (command->flags[i].letter == letter) {
@@ -110,7 +110,7 @@ static int find_letter(const accel_command *command, char letter)
     return -1;
 }
 
-static int find_name(const accel_command *command, const char *name, size_t length,
+static int find_name(const struct command *command, const char *name, size_t length,
                      const char **nearest)
 {
     size_t distance = SIZE_MAX;
@@ -121,13 +121,13 @@ static int find_name(const accel_command *command, const char *name, size_t leng
         if (strlen(legal) == length && memcmp(legal, name, length) == 0) {
             return index;
         }
-        accel_nearest_offer(name, length, legal, nearest, &distance);
+        nearest_offer(name, length, legal, nearest, &distance);
     }
     return -1;
 }
 
 /* Is the next word the value of an option that may do without? */
-static bool is_optional_value(const accel_arguments *a, const accel_flag *flag)
+static bool is_optional_value(const struct arguments *a, const struct flag *flag)
 {
     const char *ending = strrchr(flag->argument, '.');
     if (a->at >= a->argc || ending == NULL) {
@@ -140,14 +140,14 @@ static bool is_optional_value(const accel_arguments *a, const accel_flag *flag)
     return length > own && memcmp(a->argv[a->at] + length - own, ending, own) == 0;
 }
 
-static int stop(accel_arguments *a, int code)
+static int stop(struct arguments *a, int code)
 {
     a->exit_code = code;
-    return ACCEL_ARGUMENT_STOP;
+    return ARGUMENT_STOP;
 }
 
 /* Of two values of one option the first would be lost without a word. */
-static bool is_second(accel_arguments *a, int index, const accel_flag *flag)
+static bool is_second(struct arguments *a, int index, const struct flag *flag)
 {
     const uint64_t bit = flag->argument == NULL ? 0 : UINT64_C(1) << index;
     const bool second = (a->seen & bit & ~a->command->many) != 0;
@@ -156,51 +156,48 @@ static bool is_second(accel_arguments *a, int index, const accel_flag *flag)
 }
 
 /* The flag `index` has been named; `attached` is the value behind it, or NULL. */
-static int take_flag(accel_arguments *a, int index, const char *attached)
+static int take_flag(struct arguments *a, int index, const char *attached)
 {
-    const accel_flag *flag = flag_at(a->command, index);
+    const struct flag *flag = flag_at(a->command, index);
     a->bare = false;
     if (flag->argument == NULL && attached != NULL) {
-        return stop(a, accel_complain(a->command, "--%s takes no value", flag->name));
+        return stop(a, complain(a->command, "--%s takes no value", flag->name));
     }
     if (index == COMMON_FIRST) {
         a->quiet = true;
-        return accel_next_argument(a);
+        return next_argument(a);
     }
     if (index == COMMON_FIRST + 1) {
         print_help(a->command);
-        return stop(a, ACCEL_EXIT_FINE);
+        return stop(a, EXIT_FINE);
     }
     if (is_second(a, index, flag)) {
-        return stop(a,
-                    accel_complain(a->command, "--%s is given twice; once is allowed", flag->name));
+        return stop(a, complain(a->command, "--%s is given twice; once is allowed", flag->name));
     }
     a->value = attached;
     const bool optional = flag->argument != NULL && flag->argument[0] == '[';
     a->bare = optional && attached == NULL && !is_optional_value(a, flag);
     if (flag->argument != NULL && attached == NULL && !a->bare) {
         if (a->at >= a->argc) {
-            return stop(a, accel_complain(a->command, "--%s needs a value: %s", flag->name,
-                                          flag->argument));
+            return stop(a,
+                        complain(a->command, "--%s needs a value: %s", flag->name, flag->argument));
         }
         a->value = a->argv[a->at++];
     }
     return index;
 }
 
-static int unknown_option(const accel_command *command, const char *name, size_t length,
+static int unknown_option(const struct command *command, const char *name, size_t length,
                           const char *nearest)
 {
     const int shown = length < 60 ? (int)length : 60;
     return nearest == NULL
-               ? accel_complain(command,
-                                "unknown option --%.*s; 'accel %s --help' lists the options", shown,
-                                name, command->name)
-               : accel_complain(command, "unknown option --%.*s; nearest is --%s", shown, name,
-                                nearest);
+               ? complain(command, "unknown option --%.*s; 'accel %s --help' lists the options",
+                          shown, name, command->name)
+               : complain(command, "unknown option --%.*s; nearest is --%s", shown, name, nearest);
 }
 
-static int take_long(accel_arguments *a, const char *name)
+static int take_long(struct arguments *a, const char *name)
 {
     const size_t length = strcspn(name, "=");
     const char *nearest = NULL;
@@ -211,67 +208,66 @@ static int take_long(accel_arguments *a, const char *name)
     return take_flag(a, index, name[length] == '=' ? name + length + 1 : NULL);
 }
 
-static int take_short(accel_arguments *a, const char *letters)
+static int take_short(struct arguments *a, const char *letters)
 {
     const int index = find_letter(a->command, letters[0]);
     if (index < 0) {
-        return stop(a, accel_complain(a->command,
-                                      "unknown option -%c; 'accel %s --help' lists the options",
-                                      letters[0], a->command->name));
+        return stop(a,
+                    complain(a->command, "unknown option -%c; 'accel %s --help' lists the options",
+                             letters[0], a->command->name));
     }
     return take_flag(a, index, letters[1] == '\0' ? NULL : letters + 1);
 }
 
-int accel_next_argument(accel_arguments *a)
+int next_argument(struct arguments *a)
 {
     if (a->at >= a->argc) {
-        return ACCEL_ARGUMENT_END;
+        return ARGUMENT_END;
     }
     const char *word = a->argv[a->at++];
     if (a->words_only || word[0] != '-' || word[1] == '\0') {
         a->value = word;
         a->declined = a->bare;
         a->bare = false;
-        return ACCEL_ARGUMENT_WORD;
+        return ARGUMENT_WORD;
     }
     if (strcmp(word, "--") == 0) {
         a->words_only = true;
-        return accel_next_argument(a);
+        return next_argument(a);
     }
     return word[1] == '-' ? take_long(a, word + 2) : take_short(a, word + 1);
 }
 
-bool accel_take_arguments(accel_arguments *a, accel_take *take, void *request)
+bool take_arguments(struct arguments *a, take_argument *take, void *request)
 {
     int found;
-    while ((found = accel_next_argument(a)) != ACCEL_ARGUMENT_END) {
-        if (found == ACCEL_ARGUMENT_STOP) {
+    while ((found = next_argument(a)) != ARGUMENT_END) {
+        if (found == ARGUMENT_STOP) {
             return false;
         }
         if (!take(a, found, request)) {
-            a->exit_code = ACCEL_EXIT_BAD;
+            a->exit_code = EXIT_BAD;
             return false;
         }
     }
     return true;
 }
 
-bool accel_whole_argument(const accel_arguments *a, int flag, uint64_t min, uint64_t max,
-                          uint64_t *out)
+bool whole_argument(const struct arguments *a, int flag, uint64_t min, uint64_t max, uint64_t *out)
 {
-    if (accel_read_whole(a->value, min, max, out)) {
+    if (read_whole(a->value, min, max, out)) {
         return true;
     }
-    accel_complain(a->command, "--%s is '%.60s'; allowed is a whole number from %llu to %llu",
-                   a->command->flags[flag].name, a->value, (unsigned long long)min,
-                   (unsigned long long)max);
+    complain(a->command, "--%s is '%.60s'; allowed is a whole number from %llu to %llu",
+             a->command->flags[flag].name, a->value, (unsigned long long)min,
+             (unsigned long long)max);
     return false;
 }
 
-bool accel_one_word(const accel_arguments *a, const char *what, const char **word)
+bool one_word(const struct arguments *a, const char *what, const char **word)
 {
     if (*word != NULL) {
-        accel_complain(a->command, "unexpected '%.60s': one %s is enough", a->value, what);
+        complain(a->command, "unexpected '%.60s': one %s is enough", a->value, what);
         return false;
     }
     *word = a->value;

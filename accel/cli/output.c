@@ -13,7 +13,7 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-static bool fail(const accel_output *output, const char *trouble, const char *state,
+static bool fail(const struct output *output, const char *trouble, const char *state,
                  accel_error *error)
 {
     error->status = ACCEL_BAD_ARGUMENT;
@@ -22,98 +22,97 @@ static bool fail(const accel_output *output, const char *trouble, const char *st
     return false;
 }
 
-bool accel_output_failed(const accel_output *output, const char *otherwise, accel_error *error)
+bool output_failed(const struct output *output, const char *otherwise, accel_error *error)
 {
     return fail(output, output->trouble != 0 ? strerror(output->trouble) : otherwise,
                 "nothing was written", error);
 }
 
 /* Signals wait, so that none comes between the file and its watch. */
-static const char *make_temporary(accel_output *output)
+static const char *make_temporary(struct output *output)
 {
     sigset_t before;
-    accel_signals_hold(&before);
-    const bool stream = output->place.kind == ACCEL_PLACE_STREAM;
+    signals_hold(&before);
+    const bool stream = output->place.kind == PLACE_STREAM;
     output->descriptor = stream ? memfd_create("accel", MFD_CLOEXEC)
-                                : accel_place_make(&output->place, false, output->temporary);
+                                : place_make(&output->place, false, output->temporary);
     const char *trouble = output->descriptor < 0 ? strerror(errno) : NULL;
     if (trouble == NULL && !stream) {
-        accel_unfinished_start(output->temporary, false);
+        unfinished_start(output->temporary, false);
     }
-    accel_signals_go_on(&before);
+    signals_go_on(&before);
     return trouble;
 }
 
-static const char *open_output(accel_output *output, const char *path)
+static const char *open_output(struct output *output, const char *path)
 {
-    const char *trouble = accel_place_find(&output->place, path);
+    const char *trouble = place_find(&output->place, path);
     if (trouble == NULL) {
-        trouble =
-            output->place.kind == ACCEL_PLACE_FOLDER ? "it is a directory" : make_temporary(output);
+        trouble = output->place.kind == PLACE_FOLDER ? "it is a directory" : make_temporary(output);
     }
     if (trouble != NULL) {
         return trouble;
     }
-    output->file = accel_sink_open(output->descriptor, &output->trouble);
+    output->file = sink_open(output->descriptor, &output->trouble);
     return output->file == NULL ? strerror(errno) : NULL;
 }
 
-bool accel_output_open(accel_output *output, const char *path, accel_error *error)
+bool output_open(struct output *output, const char *path, accel_error *error)
 {
-    *output =
-        (accel_output){.path = strcmp(path, "-") == 0 ? "standard output" : path, .descriptor = -1};
+    *output = (struct output){.path = strcmp(path, "-") == 0 ? "standard output" : path,
+                              .descriptor = -1};
     const char *trouble = open_output(output, path);
     if (trouble == NULL) {
         return true;
     }
     fail(output, trouble, "nothing was written", error);
-    accel_output_abandon(output);
+    output_abandon(output);
     return false;
 }
 
-static bool commit_stream(const accel_output *output, accel_error *error)
+static bool commit_stream(const struct output *output, accel_error *error)
 {
     uint64_t done = 0;
     char state[60] = "nothing was written";
     fflush(stdout); /* what was printed before stands before it */
-    const char *trouble = accel_place_stream(output->descriptor, output->place.descriptor, &done);
+    const char *trouble = place_stream(output->descriptor, output->place.descriptor, &done);
     if (done > 0) {
         snprintf(state, sizeof state, "only the first %" PRIu64 " bytes were written", done);
     }
     return trouble == NULL || fail(output, trouble, state, error);
 }
 
-static bool commit_file(const accel_output *output, accel_error *error)
+static bool commit_file(const struct output *output, accel_error *error)
 {
     char state[300] = "nothing was written";
-    const accel_placed placed =
-        accel_place_file(output->descriptor, output->temporary, output->place.path);
+    const enum placed placed =
+        place_file(output->descriptor, output->temporary, output->place.path);
     const char *trouble = strerror(errno);
-    if (placed == ACCEL_HALF_PLACED) {
+    if (placed == HALF_PLACED) {
         snprintf(state, sizeof state, "its old content is damaged, the new one is in %.250s",
                  output->temporary);
     }
-    return placed == ACCEL_PLACED || fail(output, trouble, state, error);
+    return placed == PLACED || fail(output, trouble, state, error);
 }
 
-bool accel_output_commit(accel_output *output, accel_error *error)
+bool output_commit(struct output *output, accel_error *error)
 {
     bool fine = fflush(output->file) == 0 && !ferror(output->file) && output->trouble == 0;
     if (!fine) {
-        accel_output_failed(output, "the device took no more", error);
-    } else if (output->place.kind == ACCEL_PLACE_STREAM) {
+        output_failed(output, "the device took no more", error);
+    } else if (output->place.kind == PLACE_STREAM) {
         fine = commit_stream(output, error);
     } else {
         fine = commit_file(output, error);
     }
-    accel_output_abandon(output);
+    output_abandon(output);
     return fine;
 }
 
 /* Nothing is left to be removed of what is in its place. */
-void accel_output_abandon(accel_output *output)
+void output_abandon(struct output *output)
 {
-    accel_unfinished_remove();
+    unfinished_remove();
     if (output->file != NULL) {
         fclose(output->file);
     } else if (output->descriptor >= 0) {
@@ -122,5 +121,5 @@ void accel_output_abandon(accel_output *output)
     if (output->place.descriptor >= 0) {
         close(output->place.descriptor);
     }
-    *output = (accel_output){.descriptor = -1, .place.descriptor = -1};
+    *output = (struct output){.descriptor = -1, .place.descriptor = -1};
 }

@@ -33,26 +33,26 @@
 #define ACCEL_DASH "- is standard output"
 
 /* A file under way. One at a time in a process; not to be moved in memory. */
-typedef struct accel_output {
-    const char *path;                /* as the user calls it */
-    FILE *file;                      /* to write to */
-    int descriptor;                  /* the same, for who needs to write in any order */
-    int trouble;                     /* errno of the first write that failed, or 0 */
-    accel_place place;               /* where it goes in the end */
-    char temporary[ACCEL_MOST_PATH]; /* its name until then; none for a stream */
-} accel_output;
+struct output {
+    const char *path;          /* as the user calls it */
+    FILE *file;                /* to write to */
+    int descriptor;            /* the same, for who needs to write in any order */
+    int trouble;               /* errno of the first write that failed, or 0 */
+    struct place place;        /* where it goes in the end */
+    char temporary[MOST_PATH]; /* its name until then; none for a stream */
+};
 
 /* Opens it, before anything long is computed. Otherwise fills error->text. */
-bool accel_output_open(accel_output *output, const char *path, accel_error *error);
+bool output_open(struct output *output, const char *path, accel_error *error);
 
 /* Puts it in place, or removes it and fills error->text. */
-bool accel_output_commit(accel_output *output, accel_error *error);
+bool output_commit(struct output *output, accel_error *error);
 
 /* Removes it. */
-void accel_output_abandon(accel_output *output);
+void output_abandon(struct output *output);
 
 /* Fills error->text with why it could not be written: output->trouble, or `otherwise`. Returns
  * false. */
-bool accel_output_failed(const accel_output *output, const char *otherwise, accel_error *error);
+bool output_failed(const struct output *output, const char *otherwise, accel_error *error);
 
 #endif

@@ -25,7 +25,7 @@ enum {
     FLAG_OUTPUT,
 };
 
-static const accel_flag flags[] = {
+static const struct flag flags[] = {
     [FLAG_CONFIG] = {"accelerator", 'a', "CONFIG",
                      "structure to use, may be repeated (default: " ACCEL_DEFAULT_CONFIG ")"},
     [FLAG_PHOTONS] = {"photons", 'n', "N", "photons for each light (default: 100000)"},
@@ -50,43 +50,43 @@ static const accel_flag flags[] = {
                      "irradiance of each pixel as .exr (channel Y, float) or .png (tone-mapped)"},
 };
 
-static bool read_real(const accel_arguments *a, int flag, double min, double max, double *out)
+static bool read_real(const struct arguments *a, int flag, double min, double max, double *out)
 {
     double value;
-    if (accel_read_number(a->value, strlen(a->value), &value) && value >= min && value <= max) {
+    if (read_number(a->value, strlen(a->value), &value) && value >= min && value <= max) {
         *out = value;
         return true;
     }
-    accel_complain(a->command, "--%s is '%.60s'; allowed is a number from %g to %g",
-                   a->command->flags[flag].name, a->value, min, max);
+    complain(a->command, "--%s is '%.60s'; allowed is a number from %g to %g",
+             a->command->flags[flag].name, a->value, min, max);
     return false;
 }
 
-static bool read_light(const accel_arguments *a, accel_photon_request *r)
+static bool read_light(const struct arguments *a, struct photon_request *r)
 {
-    if (r->light_count == ACCEL_MOST_LIGHTS) {
-        accel_complain(a->command, "more than %d lights", ACCEL_MOST_LIGHTS);
+    if (r->light_count == MOST_LIGHTS) {
+        complain(a->command, "more than %d lights", MOST_LIGHTS);
         return false;
     }
-    const char *wrong = accel_read_light(a->value, &r->lights[r->light_count++]);
+    const char *wrong = light_read(a->value, &r->lights[r->light_count++]);
     if (wrong != NULL) {
-        accel_complain(a->command, "--light '%.100s': %s", a->value, wrong);
+        complain(a->command, "--light '%.100s': %s", a->value, wrong);
     }
     return wrong == NULL;
 }
 
-static bool read_estimate(const accel_arguments *a, accel_photon_request *r)
+static bool read_estimate(const struct arguments *a, struct photon_request *r)
 {
     r->nearest = strcmp(a->value, "nearest") == 0;
     if (!r->nearest && strcmp(a->value, "paths") != 0) {
-        accel_complain(a->command, "--estimate is '%.60s'; allowed are paths, nearest", a->value);
+        complain(a->command, "--estimate is '%.60s'; allowed are paths, nearest", a->value);
         return false;
     }
     return true;
 }
 
 /* The flags that say how to look at the result. */
-static bool read_view_flag(const accel_arguments *a, int flag, accel_photon_request *r)
+static bool read_view_flag(const struct arguments *a, int flag, struct photon_request *r)
 {
     switch (flag) {
     case FLAG_TIME_ONLY:
@@ -97,7 +97,7 @@ static bool read_view_flag(const accel_arguments *a, int flag, accel_photon_requ
     case FLAG_RADIUS:
         return read_real(a, flag, 1e-100, 1e100, &r->radius);
     case FLAG_NEAREST:
-        return accel_whole_argument(a, flag, 2, 10000000, &r->count);
+        return whole_argument(a, flag, 2, 10000000, &r->count);
     case FLAG_SIZE:
         r->size = a->value;
         return true;
@@ -108,19 +108,19 @@ static bool read_view_flag(const accel_arguments *a, int flag, accel_photon_requ
         r->output = a->value;
         return true;
     default:
-        return accel_one_word(a, "SCENE", &r->scene);
+        return one_word(a, "SCENE", &r->scene);
     }
 }
 
-static bool take(accel_arguments *a, int flag, void *request)
+static bool take(struct arguments *a, int flag, void *request)
 {
-    accel_photon_request *r = request;
+    struct photon_request *r = request;
     uint64_t whole;
     switch (flag) {
     case FLAG_CONFIG:
-        return accel_configs_add(&r->configs, a->value, a->command);
+        return configs_add(&r->configs, a->value, a->command);
     case FLAG_PHOTONS:
-        if (!accel_whole_argument(a, flag, 1, 100000000, &whole)) {
+        if (!whole_argument(a, flag, 1, 100000000, &whole)) {
             return false;
         }
         r->run.photons = (uint32_t)whole;
@@ -130,9 +130,9 @@ static bool take(accel_arguments *a, int flag, void *request)
     case FLAG_REFLECTANCE:
         return read_real(a, flag, 0.0, ACCEL_MOST_REFLECTANCE, &r->run.reflectance);
     case FLAG_SEED:
-        return accel_whole_argument(a, flag, 0, UINT64_MAX, &r->run.seed);
+        return whole_argument(a, flag, 0, UINT64_MAX, &r->run.seed);
     case FLAG_THREADS:
-        if (!accel_whole_argument(a, flag, 1, 1024, &whole)) {
+        if (!whole_argument(a, flag, 1, 1024, &whole)) {
             return false;
         }
         r->run.threads = (unsigned)whole;
@@ -142,38 +142,38 @@ static bool take(accel_arguments *a, int flag, void *request)
     }
 }
 
-static int check_request(const accel_command *command, accel_photon_request *r)
+static int check_request(const struct command *command, struct photon_request *r)
 {
     if (r->scene == NULL) {
-        return accel_complain(command, "no SCENE is given; usage: accel %s %s", command->name,
-                              command->arguments);
+        return complain(command, "no SCENE is given; usage: accel %s %s", command->name,
+                        command->arguments);
     }
-    if (r->output != NULL && (r->time_only || (!accel_ends_with(r->output, ".exr") &&
-                                               !accel_ends_with(r->output, ".png")))) {
-        return accel_complain(command, "-o '%.100s' %s; nothing was written", r->output,
-                              r->time_only ? "needs what --time-only leaves out"
-                                           : "ends in neither .exr nor .png");
+    if (r->output != NULL &&
+        (r->time_only || (!ends_with(r->output, ".exr") && !ends_with(r->output, ".png")))) {
+        return complain(command, "-o '%.100s' %s; nothing was written", r->output,
+                        r->time_only ? "needs what --time-only leaves out"
+                                     : "ends in neither .exr nor .png");
     }
     if (r->configs.count == 0) {
         r->configs.items[r->configs.count++] = ACCEL_DEFAULT_CONFIG;
     }
-    return accel_photons_fulfil(command, r);
+    return photons_fulfil(command, r);
 }
 
-static int run(const accel_command *command, int argc, char **argv)
+static int run(const struct command *command, int argc, char **argv)
 {
-    accel_photon_request r = {.run = {.photons = 100000, .reflectance = 0.5, .seed = 1},
-                              .count = 100};
-    r.run.threads = accel_crew_size();
-    accel_arguments arguments = accel_arguments_start(command, argc, argv);
-    if (!accel_take_arguments(&arguments, take, &r)) {
+    struct photon_request r = {.run = {.photons = 100000, .reflectance = 0.5, .seed = 1},
+                               .count = 100};
+    r.run.threads = crew_size();
+    struct arguments arguments = arguments_start(command, argc, argv);
+    if (!take_arguments(&arguments, take, &r)) {
         return arguments.exit_code;
     }
     r.quiet = arguments.quiet;
     return check_request(command, &r);
 }
 
-const accel_command accel_command_photons = {
+const struct command command_photons = {
     .name = "photons",
     .arguments = "SCENE [-a CONFIG]... [-o FILE] [OPTION]...",
     .summary = "illuminate a scene by photons, and compare what structures cost",

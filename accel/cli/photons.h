@@ -18,20 +18,20 @@
 
 /* A rectangle: corner + a edge[0] + b edge[1] for a, b in 0..1. It emits by the cosine from the
  * side that edge[0] x edge[1] points to. It is not an object: photons pass through it. */
-typedef struct accel_light {
+struct light {
     double corner[3];
     double edge[2][3];
     double power; /* flux of the whole rectangle */
-} accel_light;
+};
 
 /* The lights of one run. */
-typedef struct accel_lights {
-    const accel_light *at;
+struct lights {
+    const struct light *at;
     uint32_t count;
-} accel_lights;
+};
 
 /* Where a photon hit, and the end of the path that led there. 72 bytes, none of them padding. */
-typedef struct accel_photon {
+struct photon {
     double at[3];        /* the hit */
     double dir[3];       /* of the path, of length 1 up to rounding */
     double length;       /* of the path: it began at at - length * dir */
@@ -39,11 +39,11 @@ typedef struct accel_photon {
     uint32_t number;     /* of the photon among its light's */
     uint16_t light;      /* that shot it */
     uint16_t bounce;     /* reflections before this hit */
-} accel_photon;
+};
 
 /* What to trace. */
-typedef struct accel_photon_run {
-    accel_lights lights;
+struct photon_run {
+    struct lights lights;
     uint32_t photons;   /* for each light */
     double reflectance; /* of every surface, 0 .. ACCEL_MOST_REFLECTANCE */
     uint64_t seed;
@@ -51,15 +51,15 @@ typedef struct accel_photon_run {
     /* Called now and then from the calling thread; may be NULL. */
     void (*progress)(void *user, double done);
     void *user; /* handed to progress */
-} accel_photon_run;
+};
 
 /* A photon survives n reflections with the chance 0.99^n: 65,535, the limit of `bounce`, are out of
  * reach (10^-286). */
 #define ACCEL_MOST_REFLECTANCE 0.99
 
-/* What was traced. Ended by accel_photons_free. */
-typedef struct accel_photons {
-    accel_photon *at; /* by light, photon, bounce */
+/* What was traced. Ended by photons_free. */
+struct photons {
+    struct photon *at; /* by light, photon, bounce */
     size_t count;
     uint64_t emitted;  /* photons; each is absorbed or escapes */
     uint64_t absorbed; /* by a surface */
@@ -68,45 +68,44 @@ typedef struct accel_photons {
     accel_query query; /* counts of all rays */
     double seconds;    /* of emission, tracing and storing, by the clock on the wall */
     double processor;  /* the same in seconds of processor time, of all threads together */
-} accel_photons;
+};
 
 /* Traces run->photons photons of each light through `a`, which was built over `scene`. Returns
  * false, and holds nothing, if memory runs out. */
-bool accel_trace_photons(accel_photons *out, const accel *a, const accel_scene *scene,
-                         const accel_photon_run *run);
+bool trace_photons(struct photons *out, const accel *a, const accel_scene *scene,
+                   const struct photon_run *run);
 
-void accel_photons_free(accel_photons *photons);
+void photons_free(struct photons *photons);
 
 /* FNV-1a, 64 bits, of all stored bytes in order. */
-uint64_t accel_photons_hash(const accel_photons *photons);
+uint64_t photons_hash(const struct photons *photons);
 
 /* The power of one photon of light `light`. */
-double accel_photon_power(const accel_photon_run *run, uint32_t light);
+double photon_power(const struct photon_run *run, uint32_t light);
 
-enum { ACCEL_MOST_LIGHTS = 16 };
+enum { MOST_LIGHTS = 16 };
 
 /* The lights of a scene: a square above each cluster for cubes, as large as the cluster and half
  * its side away; one rectangle above the box for all others, as wide as the box and a quarter of
  * its diagonal away. Up is y. They shine down with power 1 each. Returns their number. */
-uint32_t accel_scene_lights(const char *name, const accel_scene *scene,
-                            accel_light lights[ACCEL_MOST_LIGHTS]);
+uint32_t scene_lights(const char *name, const accel_scene *scene, struct light lights[MOST_LIGHTS]);
 
 /* Reads "x,y,z:x,y,z:x,y,z[:power]", corner and the two edges; power 1 if it is not given. Returns
  * NULL, or what is wrong with it. */
-const char *accel_read_light(const char *text, accel_light *light);
+const char *light_read(const char *text, struct light *light);
 
 /* ------------------------------------------------------------- irradiance ---- */
 
 /* A point of a surface whose irradiance is wanted, and the unit normal of the lit side. */
-typedef struct accel_receiver {
+struct receiver {
     double at[3], normal[3];
-} accel_receiver;
+};
 
 /* The receivers of one estimate. */
-typedef struct accel_receivers {
-    const accel_receiver *at;
+struct receivers {
+    const struct receiver *at;
     size_t count;
-} accel_receivers;
+};
 
 /* Irradiance by the nearest photons (Jensen, "Realistic Image Synthesis Using Photon Mapping",
  * 2001): the power of the nearest - 1 photons within the distance r of number `nearest`, over
@@ -114,9 +113,9 @@ typedef struct accel_receivers {
  * all of them over pi radius^2. Only photons that come from the front count. Fills irradiance[i]
  * for each receiver. Returns false if memory runs out. Bad at: edges and corners, where part of the
  * disc holds no surface, and small objects. */
-bool accel_irradiance_nearest(const accel_photons *photons, const accel_photon_run *run,
-                              accel_receivers receivers, double radius, uint32_t nearest,
-                              double *irradiance);
+bool irradiance_nearest(const struct photons *photons, const struct photon_run *run,
+                        struct receivers receivers, double radius, uint32_t nearest,
+                        double *irradiance);
 
 /* Irradiance by density estimation on paths (Lastra, Urena, Revelles, Montes, "A Particle-Path
  * based Method for Monte Carlo Density Estimation", EG Workshop on Rendering 2002): a disc of
@@ -134,13 +133,12 @@ bool accel_irradiance_nearest(const accel_photons *photons, const accel_photon_r
  * The paths are sent through a structure of the library over the discs, which `config` names:
  * accel_all visits every disc that a path crosses once. Powers are counted for each light, so the
  * result does not depend on order or threads. Returns false with the reason in *error. */
-bool accel_irradiance_paths(const accel_photons *photons, const accel_photon_run *run,
-                            accel_receivers receivers, double radius, const char *config,
-                            double *irradiance, accel_query *query, accel_error *error);
+bool irradiance_paths(const struct photons *photons, const struct photon_run *run,
+                      struct receivers receivers, double radius, const char *config,
+                      double *irradiance, accel_query *query, accel_error *error);
 
 /* A radius whose disc is crossed by about `paths` paths, as if all of them hit the scene's surface
  * evenly; at most a twentieth of the diagonal of the scene's box. */
-double accel_irradiance_radius(const accel_photons *photons, const accel_scene *scene,
-                               double paths);
+double irradiance_radius(const struct photons *photons, const accel_scene *scene, double paths);
 
 #endif

@@ -14,12 +14,12 @@
 
 /* One run of the command. */
 typedef struct session {
-    const accel_command *command;
-    accel_photon_request *request;
-    accel_loaded loaded;
-    accel_progress progress;
-    accel_camera camera;
-    accel_view view;    /* made with the first structure */
+    const struct command *command;
+    struct photon_request *request;
+    struct loaded loaded;
+    struct progress progress;
+    struct camera camera;
+    struct view view;   /* made with the first structure */
     double *irradiance; /* of its receivers through the first CONFIG */
     double *again;      /* through another one */
     uint64_t hash;      /* of what the first CONFIG stored */
@@ -28,12 +28,12 @@ typedef struct session {
 
 static void show_photons(void *progress, double done)
 {
-    accel_progress_show(progress, "photons", done);
+    progress_show(progress, "photons", done);
 }
 
 static void print_head(const session *s)
 {
-    const accel_photon_run *run = &s->request->run;
+    const struct photon_run *run = &s->request->run;
     printf("%s: %" PRIu32 " lights, %" PRIu32 " photons for each, reflectance %g, seed %" PRIu64
            ", %u threads\n",
            s->request->scene, run->lights.count, run->photons, run->reflectance, run->seed,
@@ -42,7 +42,7 @@ static void print_head(const session *s)
            "cpu s", "rays", "hits", "nodes/r", "tests/r", "ns/ray", "hash of the hits");
 }
 
-static void print_row(const char *config, const accel *a, const accel_photons *photons,
+static void print_row(const char *config, const accel *a, const struct photons *photons,
                       uint64_t hash)
 {
     accel_info info;
@@ -63,15 +63,15 @@ static bool disagree(session *s, const char *config, const char *what)
 }
 
 /* The receivers, once, through the first structure: any other gives the same. */
-static bool prepare_view(session *s, const accel *a, const accel_photons *photons)
+static bool prepare_view(session *s, const accel *a, const struct photons *photons)
 {
     if (s->irradiance != NULL) {
         return true;
     }
     if (s->request->radius == 0.0) {
-        s->request->radius = accel_irradiance_radius(photons, &s->loaded.scene, 100.0);
+        s->request->radius = irradiance_radius(photons, &s->loaded.scene, 100.0);
     }
-    if (!accel_view_make(&s->view, a, &s->loaded.scene, &s->camera)) {
+    if (!view_make(&s->view, a, &s->loaded.scene, &s->camera)) {
         return false;
     }
     s->irradiance = malloc((s->view.count + 1) * sizeof(double));
@@ -79,17 +79,17 @@ static bool prepare_view(session *s, const accel *a, const accel_photons *photon
     return s->irradiance != NULL && s->again != NULL;
 }
 
-static bool estimate(const session *s, const accel_photons *photons, const char *config,
+static bool estimate(const session *s, const struct photons *photons, const char *config,
                      double *irradiance, accel_error *error)
 {
-    const accel_photon_request *r = s->request;
-    const accel_receivers receivers = {s->view.receivers, s->view.count};
+    const struct photon_request *r = s->request;
+    const struct receivers receivers = {s->view.receivers, s->view.count};
     accel_query query = {.user = NULL};
     snprintf(error->text, sizeof error->text, "out of memory for the irradiance");
-    return r->nearest ? accel_irradiance_nearest(photons, &r->run, receivers, r->radius,
-                                                 (uint32_t)r->count, irradiance)
-                      : accel_irradiance_paths(photons, &r->run, receivers, r->radius, config,
-                                               irradiance, &query, error);
+    return r->nearest ? irradiance_nearest(photons, &r->run, receivers, r->radius,
+                                           (uint32_t)r->count, irradiance)
+                      : irradiance_paths(photons, &r->run, receivers, r->radius, config, irradiance,
+                                         &query, error);
 }
 
 static void print_irradiance(const session *s, const double *irradiance, double seconds)
@@ -104,46 +104,45 @@ static void print_irradiance(const session *s, const double *irradiance, double 
     fflush(stdout);
 }
 
-static int find_irradiance(session *s, const accel *a, const accel_photons *photons,
+static int find_irradiance(session *s, const accel *a, const struct photons *photons,
                            const char *config)
 {
     const bool first = s->irradiance == NULL;
     accel_error error;
     if (!prepare_view(s, a, photons)) {
-        return accel_complain(s->command, "out of memory for the picture");
+        return complain(s->command, "out of memory for the picture");
     }
     double *irradiance = first ? s->irradiance : s->again;
-    const double start = accel_seconds();
+    const double start = seconds_now();
     const bool fine = estimate(s, photons, config, irradiance, &error);
-    accel_progress_clear(&s->progress);
+    progress_clear(&s->progress);
     if (!fine) {
-        return accel_complain(s->command, "%s", error.text);
+        return complain(s->command, "%s", error.text);
     }
-    print_irradiance(s, irradiance, accel_seconds() - start);
+    print_irradiance(s, irradiance, seconds_now() - start);
     if (memcmp(irradiance, s->irradiance, s->view.count * sizeof *irradiance) != 0) {
         disagree(s, config, "irradiance");
     }
-    return ACCEL_EXIT_FINE;
+    return EXIT_FINE;
 }
 
 static int illuminate(session *s, const accel *a, const char *config)
 {
-    accel_photons photons;
-    const bool fine = accel_trace_photons(&photons, a, &s->loaded.scene, &s->request->run);
-    accel_progress_clear(&s->progress);
+    struct photons photons;
+    const bool fine = trace_photons(&photons, a, &s->loaded.scene, &s->request->run);
+    progress_clear(&s->progress);
     if (!fine) {
-        return accel_complain(s->command, "out of memory for the photons");
+        return complain(s->command, "out of memory for the photons");
     }
-    const uint64_t hash = accel_photons_hash(&photons);
+    const uint64_t hash = photons_hash(&photons);
     print_row(config, a, &photons, hash);
     if (config == s->request->configs.items[0]) {
         s->hash = hash;
     } else if (hash != s->hash) {
         disagree(s, config, "hits");
     }
-    const int code =
-        s->request->time_only ? ACCEL_EXIT_FINE : find_irradiance(s, a, &photons, config);
-    accel_photons_free(&photons);
+    const int code = s->request->time_only ? EXIT_FINE : find_irradiance(s, a, &photons, config);
+    photons_free(&photons);
     return code;
 }
 
@@ -152,18 +151,18 @@ static int illuminate_all(session *s)
     print_head(s);
     for (size_t i = 0; i < s->request->configs.count; i++) {
         const char *config = s->request->configs.items[i];
-        accel *a = accel_open_structure(&s->loaded, config, s->command, &s->progress);
+        accel *a = open_structure(&s->loaded, config, s->command, &s->progress);
         if (a == NULL) {
-            return ACCEL_EXIT_BAD;
+            return EXIT_BAD;
         }
         s->progress.what = config;
         const int code = illuminate(s, a, config);
         accel_free(a);
-        if (code != ACCEL_EXIT_FINE) {
+        if (code != EXIT_FINE) {
             return code;
         }
     }
-    return s->different ? ACCEL_EXIT_DIFFERENT : ACCEL_EXIT_FINE;
+    return s->different ? EXIT_DIFFERENT : EXIT_FINE;
 }
 
 /* A CONFIG that is wrong is told before the first one's results: built over nothing. */
@@ -174,7 +173,7 @@ static bool check_configs(const session *s)
         accel *a;
         accel_error error;
         if (accel_build(&a, &nothing, s->request->configs.items[i], NULL, &error) != ACCEL_OK) {
-            accel_complain(s->command, "%s", error.text);
+            complain(s->command, "%s", error.text);
             return false;
         }
         accel_free(a);
@@ -183,53 +182,51 @@ static bool check_configs(const session *s)
 }
 
 /* `output` is NULL where no picture is asked for. */
-static int illuminate_and_write(session *s, accel_output *output)
+static int illuminate_and_write(session *s, struct output *output)
 {
     accel_error error;
     const int code = illuminate_all(s);
-    return code == ACCEL_EXIT_BAD || output == NULL ||
-                   accel_view_write(&s->view, s->irradiance, output, &error)
+    return code == EXIT_BAD || output == NULL || view_write(&s->view, s->irradiance, output, &error)
                ? code
-               : accel_complain(s->command, "%s", error.text);
+               : complain(s->command, "%s", error.text);
 }
 
-static int load_and_illuminate(const accel_command *command, accel_photon_request *r,
-                               accel_output *output)
+static int load_and_illuminate(const struct command *command, struct photon_request *r,
+                               struct output *output)
 {
-    session s = {.command = command, .request = r, .progress = accel_progress_start(r->quiet)};
-    if (!accel_open_scene(&s.loaded, r->scene, command, &s.progress)) {
-        return ACCEL_EXIT_BAD;
+    session s = {.command = command, .request = r, .progress = progress_start(r->quiet)};
+    if (!open_scene(&s.loaded, r->scene, command, &s.progress)) {
+        return EXIT_BAD;
     }
     if (r->light_count == 0) {
-        r->light_count = accel_scene_lights(r->scene, &s.loaded.scene, r->lights);
+        r->light_count = scene_lights(r->scene, &s.loaded.scene, r->lights);
     }
-    r->run.lights = (accel_lights){r->lights, r->light_count};
+    r->run.lights = (struct lights){r->lights, r->light_count};
     r->run.progress = show_photons;
     r->run.user = &s.progress;
     const char *size = r->size == NULL ? "320x240" : r->size;
-    int code = ACCEL_EXIT_BAD;
+    int code = EXIT_BAD;
     if (check_configs(&s) &&
-        accel_camera_argument(command, size, r->camera, &s.loaded.scene, &s.camera)) {
+        camera_argument(command, size, r->camera, &s.loaded.scene, &s.camera)) {
         code = illuminate_and_write(&s, output);
     }
-    accel_view_free(&s.view);
+    view_free(&s.view);
     free(s.irradiance);
     free(s.again);
-    accel_unload_scene(&s.loaded);
+    unload_scene(&s.loaded);
     return code;
 }
 
 /* The file is opened before anything long is computed, and appears whole or not at all. */
-int accel_photons_fulfil(const accel_command *command, accel_photon_request *r)
+int photons_fulfil(const struct command *command, struct photon_request *r)
 {
-    accel_output output;
+    struct output output;
     accel_error error;
     if (r->output == NULL) {
         return load_and_illuminate(command, r, NULL);
     }
-    if (!accel_output_open(&output, r->output, &error)) {
-        return accel_complain(command, "%s", error.text);
+    if (!output_open(&output, r->output, &error)) {
+        return complain(command, "%s", error.text);
     }
-    return accel_end_output(&output, load_and_illuminate(command, r, &output), ACCEL_EXIT_DIFFERENT,
-                            command);
+    return end_output(&output, load_and_illuminate(command, r, &output), EXIT_DIFFERENT, command);
 }

@@ -10,17 +10,16 @@
 #include <string.h>
 
 /* A rectangle parallel to the floor, around x and z, that shines down. */
-static accel_light ceiling(double lo_x, double lo_z, double wide, double deep, double y)
+static struct light ceiling(double lo_x, double lo_z, double wide, double deep, double y)
 {
-    return (accel_light){
+    return (struct light){
         .corner = {lo_x, y, lo_z}, .edge = {{wide, 0.0, 0.0}, {0.0, 0.0, deep}}, .power = 1.0};
 }
 
-uint32_t accel_scene_lights(const char *name, const accel_scene *scene,
-                            accel_light lights[ACCEL_MOST_LIGHTS])
+uint32_t scene_lights(const char *name, const accel_scene *scene, struct light lights[MOST_LIGHTS])
 {
     accel_box box;
-    accel_scene_box(scene, &box);
+    scene_box(scene, &box);
     double size[3];
     vector_subtract(size, box.hi, box.lo);
     if (strcspn(name, ":") == 5 && memcmp(name, "cubes", 5) == 0) {
@@ -44,7 +43,7 @@ static bool read_numbers(const char *text, size_t length, double *out, int count
     for (int i = 0; i < count; i++) {
         const char *comma = memchr(text, ',', (size_t)(end - text));
         const char *stop = i == count - 1 ? end : comma;
-        if (stop == NULL || !accel_read_number(text, (size_t)(stop - text), &out[i])) {
+        if (stop == NULL || !read_number(text, (size_t)(stop - text), &out[i])) {
             return false;
         }
         text = stop + 1;
@@ -52,7 +51,7 @@ static bool read_numbers(const char *text, size_t length, double *out, int count
     return true;
 }
 
-const char *accel_read_light(const char *text, accel_light *light)
+const char *light_read(const char *text, struct light *light)
 {
     double *const parts[] = {light->corner, light->edge[0], light->edge[1], &light->power};
     light->power = 1.0;

@@ -13,7 +13,7 @@
 
 /* The photons, sorted by the slot of their cell. */
 typedef struct lattice {
-    const accel_photons *photons;
+    const struct photons *photons;
     double cell;     /* its width */
     size_t slots;    /* a power of two */
     size_t *first;   /* slots + 1: where a slot's run begins */
@@ -35,8 +35,8 @@ typedef struct nearest {
 /* The estimate under way. */
 typedef struct estimate {
     lattice lattice;
-    const accel_photon_run *run;
-    accel_receivers receivers;
+    const struct photon_run *run;
+    struct receivers receivers;
     double radius;
     uint32_t nearest;
     double *irradiance;
@@ -125,11 +125,11 @@ static void keep(nearest *n, neighbour item)
     n->heap[at] = item;
 }
 
-static void search_slot(const estimate *e, const accel_receiver *receiver, size_t slot, nearest *n)
+static void search_slot(const estimate *e, const struct receiver *receiver, size_t slot, nearest *n)
 {
     const lattice *l = &e->lattice;
     for (size_t i = l->first[slot]; i < l->first[slot + 1]; i++) {
-        const accel_photon *photon = &l->photons->at[l->order[i]];
+        const struct photon *photon = &l->photons->at[l->order[i]];
         double apart[3];
         vector_subtract(apart, photon->at, receiver->at);
         const double square = vector_dot(apart, apart);
@@ -140,7 +140,7 @@ static void search_slot(const estimate *e, const accel_receiver *receiver, size_
 }
 
 /* Two cells may share a slot: each slot is searched once. */
-static void search(const estimate *e, const accel_receiver *receiver, nearest *n)
+static void search(const estimate *e, const struct receiver *receiver, nearest *n)
 {
     size_t seen[27];
     int seen_count = 0;
@@ -165,8 +165,8 @@ static double density(const estimate *e, const nearest *n)
     const double square = full ? n->heap[0].square : e->radius * e->radius;
     double power = 0.0;
     for (uint32_t i = full ? 1 : 0; i < n->count; i++) {
-        const accel_photon *photon = &e->lattice.photons->at[n->heap[i].photon];
-        power += accel_photon_power(e->run, photon->light);
+        const struct photon *photon = &e->lattice.photons->at[n->heap[i].photon];
+        power += photon_power(e->run, photon->light);
     }
     return power / (acos(-1.0) * square);
 }
@@ -188,9 +188,9 @@ static void work(void *user, unsigned thread)
     free(n.heap);
 }
 
-bool accel_irradiance_nearest(const accel_photons *photons, const accel_photon_run *run,
-                              accel_receivers receivers, double radius, uint32_t nearest,
-                              double *irradiance)
+bool irradiance_nearest(const struct photons *photons, const struct photon_run *run,
+                        struct receivers receivers, double radius, uint32_t nearest,
+                        double *irradiance)
 {
     estimate e = {.lattice = {.photons = photons, .cell = radius},
                   .run = run,
@@ -200,7 +200,7 @@ bool accel_irradiance_nearest(const accel_photons *photons, const accel_photon_r
                   .irradiance = irradiance};
     bool fine = fill_lattice(&e.lattice);
     if (fine) {
-        accel_crew(run->threads, work, &e);
+        crew(run->threads, work, &e);
         fine = !atomic_load(&e.failed);
     }
     free(e.lattice.first);

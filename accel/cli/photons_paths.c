@@ -18,9 +18,9 @@ enum { BLOCK = 256 };
 /* The estimate under way. */
 typedef struct estimate {
     const accel *discs;
-    const accel_photons *photons;
-    const accel_photon_run *run;
-    accel_receivers receivers;
+    const struct photons *photons;
+    const struct photon_run *run;
+    struct receivers receivers;
     double radius;
     atomic_uint *crossings; /* of receiver r by paths of light l: [r * lights + l] */
     atomic_size_t next;     /* path that nobody has taken yet */
@@ -37,7 +37,7 @@ typedef struct path {
 static void cross_disc(accel_probe *probe)
 {
     const estimate *e = probe->user;
-    const accel_receiver *receiver = &e->receivers.at[probe->prim];
+    const struct receiver *receiver = &e->receivers.at[probe->prim];
     double from[3];
     vector_subtract(from, probe->ray->org, receiver->at);
     const double height = vector_dot(from, receiver->normal);
@@ -60,7 +60,7 @@ static bool count_disc(void *user, const accel_hit *hit)
     return true;
 }
 
-static void send_path(estimate *e, const accel_photon *photon, accel_query *query)
+static void send_path(estimate *e, const struct photon *photon, accel_query *query)
 {
     double org[3];
     vector_add_scaled(org, photon->at, -photon->length, photon->dir);
@@ -89,7 +89,7 @@ static void work(void *user, unsigned thread)
 
 /* Half the width of the disc along axis k is radius * sqrt(1 - n_k^2); from the two other parts of
  * the normal it is right to rounding also where n_k is nearly 1. */
-static accel_box disc_box(const accel_receiver *receiver, double radius)
+static accel_box disc_box(const struct receiver *receiver, double radius)
 {
     accel_box box;
     const double *n = receiver->normal;
@@ -126,15 +126,15 @@ static void add_up(const estimate *e, double *irradiance)
     for (size_t i = 0; i < e->receivers.count; i++) {
         double power = 0.0;
         for (uint32_t l = 0; l < lights; l++) {
-            power += atomic_load(&e->crossings[i * lights + l]) * accel_photon_power(e->run, l);
+            power += atomic_load(&e->crossings[i * lights + l]) * photon_power(e->run, l);
         }
         irradiance[i] = power / area;
     }
 }
 
-bool accel_irradiance_paths(const accel_photons *photons, const accel_photon_run *run,
-                            accel_receivers receivers, double radius, const char *config,
-                            double *irradiance, accel_query *query, accel_error *error)
+bool irradiance_paths(const struct photons *photons, const struct photon_run *run,
+                      struct receivers receivers, double radius, const char *config,
+                      double *irradiance, accel_query *query, accel_error *error)
 {
     estimate e = {.photons = photons, .run = run, .receivers = receivers, .radius = radius};
     accel_box *boxes = malloc((receivers.count + 1) * sizeof *boxes);
@@ -148,7 +148,7 @@ bool accel_irradiance_paths(const accel_photons *photons, const accel_photon_run
     free(boxes);
     if (discs != NULL) {
         e.discs = discs;
-        accel_crew(run->threads, work, &e);
+        crew(run->threads, work, &e);
         add_up(&e, irradiance);
         query->nodes += atomic_load(&e.nodes);
         query->tests += atomic_load(&e.tests);
@@ -158,14 +158,14 @@ bool accel_irradiance_paths(const accel_photons *photons, const accel_photon_run
     return discs != NULL;
 }
 
-double accel_irradiance_radius(const accel_photons *photons, const accel_scene *scene, double paths)
+double irradiance_radius(const struct photons *photons, const accel_scene *scene, double paths)
 {
     accel_box box;
     double size[3];
-    accel_scene_box(scene, &box);
+    scene_box(scene, &box);
     vector_subtract(size, box.hi, box.lo);
     const double most = 0.05 * sqrt(vector_dot(size, size));
-    const double area = accel_scene_area(scene);
+    const double area = scene_area(scene);
     return photons->count == 0
                ? most
                : fmin(most, sqrt(paths * area / (acos(-1.0) * (double)photons->count)));

@@ -3,12 +3,12 @@
 
 #include "photons_vector.h"
 
-static void triangle_at(accel_surface *out, const accel_triangles *mesh, const accel_hit *hit)
+static void triangle_at(struct surface *out, const accel_triangles *mesh, const accel_hit *hit)
 {
     double a[3], b[3], c[3];
-    accel_scene_vertex(mesh, hit->prim, 0, a);
-    accel_scene_vertex(mesh, hit->prim, 1, b);
-    accel_scene_vertex(mesh, hit->prim, 2, c);
+    scene_vertex(mesh, hit->prim, 0, a);
+    scene_vertex(mesh, hit->prim, 1, b);
+    scene_vertex(mesh, hit->prim, 2, c);
     vector_subtract(b, b, a);
     vector_subtract(c, c, a);
     for (int k = 0; k < 3; k++) {
@@ -17,7 +17,7 @@ static void triangle_at(accel_surface *out, const accel_triangles *mesh, const a
     vector_cross(out->normal, b, c);
 }
 
-static void sphere_at(accel_surface *out, const double *sphere, const accel_ray *ray,
+static void sphere_at(struct surface *out, const double *sphere, const accel_ray *ray,
                       const accel_hit *hit)
 {
     double on_ray[3];
@@ -27,15 +27,15 @@ static void sphere_at(accel_surface *out, const double *sphere, const accel_ray 
     vector_add_scaled(out->at, sphere, sphere[3], out->normal);
 }
 
-accel_surface accel_surface_at(const accel_scene *scene, const accel_ray *ray, const accel_hit *hit)
+struct surface surface_at(const accel_scene *scene, const accel_ray *ray, const accel_hit *hit)
 {
-    accel_surface out;
+    struct surface out;
     const accel_geometry *geometry = &scene->geometries[hit->geom];
     if (geometry->type == ACCEL_TRIANGLES) {
         triangle_at(&out, &geometry->triangles, hit);
         vector_normalize(out.normal);
     } else {
-        sphere_at(&out, accel_scene_sphere(&geometry->spheres, hit->prim), ray, hit);
+        sphere_at(&out, scene_sphere(&geometry->spheres, hit->prim), ray, hit);
     }
     if (vector_dot(out.normal, ray->dir) > 0.0) {
         for (int k = 0; k < 3; k++) {
@@ -48,16 +48,16 @@ accel_surface accel_surface_at(const accel_scene *scene, const accel_ray *ray, c
 static double triangle_area(const accel_triangles *mesh, uint32_t prim)
 {
     double a[3], b[3], c[3], normal[3];
-    accel_scene_vertex(mesh, prim, 0, a);
-    accel_scene_vertex(mesh, prim, 1, b);
-    accel_scene_vertex(mesh, prim, 2, c);
+    scene_vertex(mesh, prim, 0, a);
+    scene_vertex(mesh, prim, 1, b);
+    scene_vertex(mesh, prim, 2, c);
     vector_subtract(b, b, a);
     vector_subtract(c, c, a);
     vector_cross(normal, b, c);
     return 0.5 * sqrt(vector_dot(normal, normal));
 }
 
-double accel_scene_area(const accel_scene *scene)
+double scene_area(const accel_scene *scene)
 {
     double area = 0.0;
     for (uint32_t g = 0; g < scene->count; g++) {
@@ -67,7 +67,7 @@ double accel_scene_area(const accel_scene *scene)
             area += triangle_area(&geometry->triangles, i);
         }
         for (uint32_t i = 0; geometry->type == ACCEL_SPHERES && i < geometry->spheres.count; i++) {
-            const double radius = accel_scene_sphere(&geometry->spheres, i)[3];
+            const double radius = scene_sphere(&geometry->spheres, i)[3];
             area += 4.0 * acos(-1.0) * radius * radius;
         }
     }

@@ -11,15 +11,14 @@
 #include "scene.h"
 
 /* A point on a surface. */
-typedef struct accel_surface {
+struct surface {
     double at[3];
     double normal[3]; /* of length 1, on the side that the ray came from */
-} accel_surface;
+};
 
-accel_surface accel_surface_at(const accel_scene *scene, const accel_ray *ray,
-                               const accel_hit *hit);
+struct surface surface_at(const accel_scene *scene, const accel_ray *ray, const accel_hit *hit);
 
 /* The area of all triangles and spheres. */
-double accel_scene_area(const accel_scene *scene);
+double scene_area(const accel_scene *scene);
 
 #endif

@@ -20,7 +20,7 @@
 /* Photons of one block: enough that taking one costs nothing, few enough to share evenly. */
 enum { BLOCK = 1024 };
 
-static_assert(sizeof(accel_photon) == 72, "hashed as bytes: no padding");
+static_assert(sizeof(struct photon) == 72, "hashed as bytes: no padding");
 
 /* The hits of one block, in the worker's array. */
 typedef struct block {
@@ -30,7 +30,7 @@ typedef struct block {
 
 /* One thread's part. */
 typedef struct worker {
-    accel_photon *hits; /* of all its blocks */
+    struct photon *hits; /* of all its blocks */
     size_t count, room;
     uint64_t absorbed, escaped, rays;
     accel_query query;
@@ -41,7 +41,7 @@ typedef struct worker {
 typedef struct shoot {
     const accel *a;
     const accel_scene *scene;
-    const accel_photon_run *run;
+    const struct photon_run *run;
     worker *workers; /* run->threads of them */
     block *blocks;   /* block_count of them, in the order of the photons */
     size_t block_count;
@@ -56,10 +56,10 @@ typedef struct flight {
 
 /* A direction by the cosine around the unit vector n. The basis is the one of Duff et al.,
  * "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017. */
-static void scatter(double dir[3], const double n[3], accel_random *random)
+static void scatter(double dir[3], const double n[3], struct random *random)
 {
-    const double square = accel_random_unit(random);
-    const double angle = 2.0 * acos(-1.0) * accel_random_unit(random);
+    const double square = random_unit(random);
+    const double angle = 2.0 * acos(-1.0) * random_unit(random);
     const double x = sqrt(square) * cos(angle), y = sqrt(square) * sin(angle);
     const double z = sqrt(1.0 - square);
     const double sign = copysign(1.0, n[2]);
@@ -71,29 +71,29 @@ static void scatter(double dir[3], const double n[3], accel_random *random)
     }
 }
 
-static accel_random draw(const shoot *s, const flight *f, uint32_t bounce)
+static struct random draw(const shoot *s, const flight *f, uint32_t bounce)
 {
-    return accel_random_start(s->run->seed, f->light, (uint64_t)bounce << 32 | f->number);
+    return random_start(s->run->seed, f->light, (uint64_t)bounce << 32 | f->number);
 }
 
 static void emit(const shoot *s, flight *f)
 {
-    const accel_light *light = &s->run->lights.at[f->light];
-    accel_random random = draw(s, f, 0);
+    const struct light *light = &s->run->lights.at[f->light];
+    struct random random = draw(s, f, 0);
     double normal[3], org[3], dir[3];
     vector_cross(normal, light->edge[0], light->edge[1]);
     vector_normalize(normal);
-    vector_add_scaled(org, light->corner, accel_random_unit(&random), light->edge[0]);
-    vector_add_scaled(org, org, accel_random_unit(&random), light->edge[1]);
+    vector_add_scaled(org, light->corner, random_unit(&random), light->edge[0]);
+    vector_add_scaled(org, org, random_unit(&random), light->edge[1]);
     scatter(dir, normal, &random);
     f->ray = accel_ray_from(org, dir);
 }
 
-static bool store(worker *w, const accel_photon *photon)
+static bool store(worker *w, const struct photon *photon)
 {
     if (w->count == w->room) {
         const size_t room = w->room == 0 ? 4 * BLOCK : 2 * w->room;
-        accel_photon *hits = realloc(w->hits, room * sizeof *hits);
+        struct photon *hits = realloc(w->hits, room * sizeof *hits);
         if (hits == NULL) {
             w->failed = true;
             return false;
@@ -105,15 +105,15 @@ static bool store(worker *w, const accel_photon *photon)
     return true;
 }
 
-static accel_photon photon_of(const flight *f, const accel_surface *surface, const accel_hit *hit,
-                              uint32_t bounce)
+static struct photon photon_of(const flight *f, const struct surface *surface, const accel_hit *hit,
+                               uint32_t bounce)
 {
-    accel_photon out = {.length = hit->t,
-                        .geom = hit->geom,
-                        .prim = hit->prim,
-                        .number = f->number,
-                        .light = (uint16_t)f->light,
-                        .bounce = (uint16_t)bounce};
+    struct photon out = {.length = hit->t,
+                         .geom = hit->geom,
+                         .prim = hit->prim,
+                         .number = f->number,
+                         .light = (uint16_t)f->light,
+                         .bounce = (uint16_t)bounce};
     memcpy(out.at, surface->at, sizeof out.at);
     memcpy(out.dir, f->ray.dir, sizeof out.dir);
     return out;
@@ -130,13 +130,13 @@ static void shoot_one(const shoot *s, worker *w, flight *f)
             w->escaped++;
             return;
         }
-        const accel_surface surface = accel_surface_at(s->scene, &f->ray, &hit);
-        const accel_photon photon = photon_of(f, &surface, &hit, bounce);
+        const struct surface surface = surface_at(s->scene, &f->ray, &hit);
+        const struct photon photon = photon_of(f, &surface, &hit, bounce);
         if (!store(w, &photon)) {
             return;
         }
-        accel_random random = draw(s, f, bounce + 1);
-        if (accel_random_unit(&random) >= s->run->reflectance) {
+        struct random random = draw(s, f, bounce + 1);
+        if (random_unit(&random) >= s->run->reflectance) {
             w->absorbed++;
             return;
         }
@@ -177,7 +177,7 @@ static void work(void *user, unsigned thread)
     s->workers[thread] = w;
 }
 
-static bool join(const shoot *s, accel_photons *out)
+static bool join(const shoot *s, struct photons *out)
 {
     for (unsigned i = 0; i < s->run->threads; i++) {
         const worker *w = &s->workers[i];
@@ -212,11 +212,11 @@ static double processor_seconds(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-bool accel_trace_photons(accel_photons *out, const accel *a, const accel_scene *scene,
-                         const accel_photon_run *run)
+bool trace_photons(struct photons *out, const accel *a, const accel_scene *scene,
+                   const struct photon_run *run)
 {
-    const double start = accel_seconds(), processor = processor_seconds();
-    *out = (accel_photons){.emitted = (uint64_t)run->photons * run->lights.count};
+    const double start = seconds_now(), processor = processor_seconds();
+    *out = (struct photons){.emitted = (uint64_t)run->photons * run->lights.count};
     const size_t block_count = (size_t)((out->emitted + BLOCK - 1) / BLOCK);
     shoot s = {.a = a,
                .scene = scene,
@@ -226,9 +226,9 @@ bool accel_trace_photons(accel_photons *out, const accel *a, const accel_scene *
                .block_count = block_count};
     bool fine = s.workers != NULL && s.blocks != NULL;
     if (fine) {
-        accel_crew(run->threads, work, &s);
+        crew(run->threads, work, &s);
         fine = join(&s, out);
-        out->seconds = accel_seconds() - start;
+        out->seconds = seconds_now() - start;
         out->processor = processor_seconds() - processor;
     }
     for (unsigned i = 0; s.workers != NULL && i < run->threads; i++) {
@@ -237,18 +237,18 @@ bool accel_trace_photons(accel_photons *out, const accel *a, const accel_scene *
     free(s.workers);
     free(s.blocks);
     if (!fine) {
-        accel_photons_free(out);
+        photons_free(out);
     }
     return fine;
 }
 
-void accel_photons_free(accel_photons *photons)
+void photons_free(struct photons *photons)
 {
     free(photons->at);
-    *photons = (accel_photons){.at = NULL};
+    *photons = (struct photons){.at = NULL};
 }
 
-uint64_t accel_photons_hash(const accel_photons *photons)
+uint64_t photons_hash(const struct photons *photons)
 {
     uint64_t hash = 0xcbf29ce484222325u;
     const unsigned char *bytes = (const unsigned char *)photons->at;
@@ -258,7 +258,7 @@ uint64_t accel_photons_hash(const accel_photons *photons)
     return hash;
 }
 
-double accel_photon_power(const accel_photon_run *run, uint32_t light)
+double photon_power(const struct photon_run *run, uint32_t light)
 {
     return run->lights.at[light].power / run->photons;
 }

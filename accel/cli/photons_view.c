@@ -8,25 +8,25 @@
 #include <stdlib.h>
 #include <string.h>
 
-bool accel_view_make(accel_view *view, const accel *a, const accel_scene *scene,
-                     const accel_camera *camera)
+bool view_make(struct view *view, const accel *a, const accel_scene *scene,
+               const struct camera *camera)
 {
     const size_t pixels = (size_t)camera->width * camera->height;
-    *view = (accel_view){.width = camera->width,
-                         .height = camera->height,
-                         .receivers = malloc(pixels * sizeof(accel_receiver)),
-                         .pixels = malloc(pixels * sizeof(uint32_t))};
+    *view = (struct view){.width = camera->width,
+                          .height = camera->height,
+                          .receivers = malloc(pixels * sizeof(struct receiver)),
+                          .pixels = malloc(pixels * sizeof(uint32_t))};
     if (view->receivers == NULL || view->pixels == NULL) {
-        accel_view_free(view);
+        view_free(view);
         return false;
     }
     for (size_t i = 0; i < pixels; i++) {
         const accel_ray ray =
-            accel_camera_ray(camera, (double)(i % camera->width), (double)(i / camera->width));
+            camera_ray(camera, (double)(i % camera->width), (double)(i / camera->width));
         accel_hit hit;
         if (accel_closest(a, &ray, &hit, NULL)) {
-            const accel_surface surface = accel_surface_at(scene, &ray, &hit);
-            accel_receiver *receiver = &view->receivers[view->count];
+            const struct surface surface = surface_at(scene, &ray, &hit);
+            struct receiver *receiver = &view->receivers[view->count];
             memcpy(receiver->at, surface.at, sizeof receiver->at);
             memcpy(receiver->normal, surface.normal, sizeof receiver->normal);
             view->pixels[view->count++] = (uint32_t)i;
@@ -35,19 +35,19 @@ bool accel_view_make(accel_view *view, const accel *a, const accel_scene *scene,
     return true;
 }
 
-void accel_view_free(accel_view *view)
+void view_free(struct view *view)
 {
     free(view->receivers);
     free(view->pixels);
-    *view = (accel_view){.count = 0};
+    *view = (struct view){.count = 0};
 }
 
-static bool write_exr(const accel_view *view, const double *irradiance, accel_output *output,
+static bool write_exr(const struct view *view, const double *irradiance, struct output *output,
                       accel_error *error)
 {
     static const char *const names[] = {"Y", NULL};
-    accel_image image;
-    if (!accel_image_make(&image, view->width, view->height, names)) {
+    struct image image;
+    if (!image_make(&image, view->width, view->height, names)) {
         snprintf(error->text, sizeof error->text, "out of memory; nothing was written");
         return false;
     }
@@ -55,8 +55,8 @@ static bool write_exr(const accel_view *view, const double *irradiance, accel_ou
         const float narrow = (float)irradiance[i];
         memcpy(&image.channels[0].bits[view->pixels[i]], &narrow, sizeof narrow);
     }
-    const bool fine = accel_image_write_exr(&image, output, error);
-    accel_image_free(&image);
+    const bool fine = image_write_exr(&image, output, error);
+    image_free(&image);
     return fine;
 }
 
@@ -68,7 +68,7 @@ static unsigned char gray(double linear)
     return (unsigned char)(255.0 * curved + 0.5);
 }
 
-static bool write_png(const accel_view *view, const double *irradiance, accel_output *output,
+static bool write_png(const struct view *view, const double *irradiance, struct output *output,
                       accel_error *error)
 {
     unsigned char *pixels = calloc((size_t)view->width * view->height, 3);
@@ -84,14 +84,14 @@ static bool write_png(const accel_view *view, const double *irradiance, accel_ou
         const double part = mean > 0.0 ? irradiance[i] / mean : 0.0;
         memset(pixels + 3 * (size_t)view->pixels[i], gray(1.0 - exp(-part)), 3);
     }
-    const bool fine = accel_write_png(pixels, view->width, view->height, output, error);
+    const bool fine = png_write(pixels, view->width, view->height, output, error);
     free(pixels);
     return fine;
 }
 
-bool accel_view_write(const accel_view *view, const double *irradiance, accel_output *output,
-                      accel_error *error)
+bool view_write(const struct view *view, const double *irradiance, struct output *output,
+                accel_error *error)
 {
-    return accel_ends_with(output->path, ".png") ? write_png(view, irradiance, output, error)
-                                                 : write_exr(view, irradiance, output, error);
+    return ends_with(output->path, ".png") ? write_png(view, irradiance, output, error)
+                                           : write_exr(view, irradiance, output, error);
 }

@@ -9,25 +9,25 @@
 #include "image.h"
 #include "photons.h"
 
-/* A camera's receivers. Ended by accel_view_free. */
-typedef struct accel_view {
-    uint32_t width, height;    /* pixels */
-    accel_receiver *receivers; /* on the side of the surface that the camera sees */
-    uint32_t *pixels;          /* of each receiver; rows from the top */
-    size_t count;              /* of receivers */
-} accel_view;
+/* A camera's receivers. Ended by view_free. */
+struct view {
+    uint32_t width, height;     /* pixels */
+    struct receiver *receivers; /* on the side of the surface that the camera sees */
+    uint32_t *pixels;           /* of each receiver; rows from the top */
+    size_t count;               /* of receivers */
+};
 
 /* One ray through the middle of each pixel. Returns false when memory runs out. */
-bool accel_view_make(accel_view *view, const accel *a, const accel_scene *scene,
-                     const accel_camera *camera);
+bool view_make(struct view *view, const accel *a, const accel_scene *scene,
+               const struct camera *camera);
 
-void accel_view_free(accel_view *view);
+void view_free(struct view *view);
 
 /* Writes irradiance[i] of each receiver: where the output's name ends in .png as a gray picture,
  * 1 - exp(-E / mean E) with the transfer curve of sRGB; otherwise as OpenEXR with the channel Y,
  * which is E in float. Pixels without a surface are 0. Returns false and fills error->text
  * otherwise. */
-bool accel_view_write(const accel_view *view, const double *irradiance, accel_output *output,
-                      accel_error *error);
+bool view_write(const struct view *view, const double *irradiance, struct output *output,
+                accel_error *error);
 
 #endif

@@ -28,7 +28,7 @@ static int own_descriptor(const char *path)
     static const char *const own[] = {"/proc/self/fd", "/proc/thread-self/fd"};
     const size_t length = folder_length(path);
     const char *number = path + length;
-    char folder[ACCEL_MOST_PATH] = ".", real[ACCEL_MOST_PATH], wanted[ACCEL_MOST_PATH];
+    char folder[MOST_PATH] = ".", real[MOST_PATH], wanted[MOST_PATH];
     if (*number == '\0' || strlen(number) > 9 || number[strspn(number, "0123456789")] != '\0') {
         return -1;
     }
@@ -44,10 +44,10 @@ static int own_descriptor(const char *path)
 }
 
 /* Puts what a link says in its place. */
-static bool put_link(char path[ACCEL_MOST_PATH], const char *link)
+static bool put_link(char path[MOST_PATH], const char *link)
 {
     const size_t kept = *link == '/' ? 0 : folder_length(path);
-    if (kept + strlen(link) >= ACCEL_MOST_PATH) {
+    if (kept + strlen(link) >= MOST_PATH) {
         errno = ENAMETOOLONG;
         return false;
     }
@@ -57,9 +57,9 @@ static bool put_link(char path[ACCEL_MOST_PATH], const char *link)
 
 /* Follows the links at the end of a path, also those that lead to nothing, up to a descriptor of
  * this process, whose number becomes *own. False: errno says why not. */
-static bool follow(char path[ACCEL_MOST_PATH], int *own)
+static bool follow(char path[MOST_PATH], int *own)
 {
-    char link[ACCEL_MOST_PATH];
+    char link[MOST_PATH];
     for (int i = 0; i < MOST_LINKS; i++) {
         *own = own_descriptor(path);
         const ssize_t length = *own >= 0 ? -1 : readlink(path, link, sizeof link - 1);
@@ -77,10 +77,10 @@ static bool follow(char path[ACCEL_MOST_PATH], int *own)
 
 /* ------------------------------------------------------------- what is there ---- */
 
-static const char *take_descriptor(accel_place *place, int own)
+static const char *take_descriptor(struct place *place, int own)
 {
     const int flags = fcntl(own, F_GETFL);
-    place->kind = ACCEL_PLACE_STREAM;
+    place->kind = PLACE_STREAM;
     if (flags >= 0 && (flags & O_ACCMODE) == O_RDONLY) {
         return "it is closed or only open to be read";
     }
@@ -89,18 +89,18 @@ static const char *take_descriptor(accel_place *place, int own)
 }
 
 /* A pipe waits here for its reader. */
-static const char *open_stream(accel_place *place, const char *name, const struct stat *status)
+static const char *open_stream(struct place *place, const char *name, const struct stat *status)
 {
     if (S_ISBLK(status->st_mode)) {
         return "it is a block device";
     }
-    place->kind = ACCEL_PLACE_STREAM;
+    place->kind = PLACE_STREAM;
     place->descriptor = open(name, O_WRONLY | O_NOCTTY | O_CLOEXEC);
     return place->descriptor < 0 ? strerror(errno) : NULL;
 }
 
 /* To open it is the only question about a file's mode, flags and mount that has an answer. */
-static const char *try_file(accel_place *place, const char *name, const struct stat *status)
+static const char *try_file(struct place *place, const char *name, const struct stat *status)
 {
     struct stat real;
     const int descriptor = open(name, O_WRONLY | O_NOCTTY | O_CLOEXEC);
@@ -108,19 +108,19 @@ static const char *try_file(accel_place *place, const char *name, const struct s
         return strerror(errno);
     }
     close(descriptor);
-    place->kind = ACCEL_PLACE_FILE;
+    place->kind = PLACE_FILE;
     const bool same = lstat(place->path, &real) == 0 && real.st_dev == status->st_dev &&
                       real.st_ino == status->st_ino;
     return same ? NULL : "it leads to a file without a name";
 }
 
-const char *accel_place_find(accel_place *place, const char *name)
+const char *place_find(struct place *place, const char *name)
 {
-    *place = (accel_place){.kind = ACCEL_PLACE_NEW, .descriptor = -1};
+    *place = (struct place){.kind = PLACE_NEW, .descriptor = -1};
     if (strcmp(name, "-") == 0) {
         return take_descriptor(place, STDOUT_FILENO);
     }
-    if (*name == '\0' || strlen(name) >= ACCEL_MOST_PATH) {
+    if (*name == '\0' || strlen(name) >= MOST_PATH) {
         return *name == '\0' ? "the name is empty" : strerror(ENAMETOOLONG);
     }
     /* the kernel first: it may forbid to follow a link that readlink can read */
@@ -138,7 +138,7 @@ const char *accel_place_find(accel_place *place, const char *name)
         return NULL;
     }
     if (S_ISDIR(status.st_mode)) {
-        place->kind = ACCEL_PLACE_FOLDER;
+        place->kind = PLACE_FOLDER;
         return NULL;
     }
     return S_ISREG(status.st_mode) ? try_file(place, name, &status)
@@ -178,27 +178,26 @@ static int make(char *name, bool folder, mode_t mode)
     return -1;
 }
 
-int accel_place_make(const accel_place *place, bool folder, char temporary[ACCEL_MOST_PATH])
+int place_make(const struct place *place, bool folder, char temporary[MOST_PATH])
 {
-    const bool is_new = place->kind == ACCEL_PLACE_NEW;
+    const bool is_new = place->kind == PLACE_NEW;
     const size_t kept = folder_length(place->path);
-    const int length =
-        place->kind == ACCEL_PLACE_FOLDER
-            ? snprintf(temporary, ACCEL_MOST_PATH, "%s/unfinished.XXXXXX", place->path)
-            : snprintf(temporary, ACCEL_MOST_PATH, "%.*s%.*s.XXXXXX", (int)kept, place->path,
-                       LONGEST_BASE, place->path + kept);
-    if (length >= ACCEL_MOST_PATH) {
+    const int length = place->kind == PLACE_FOLDER
+                           ? snprintf(temporary, MOST_PATH, "%s/unfinished.XXXXXX", place->path)
+                           : snprintf(temporary, MOST_PATH, "%.*s%.*s.XXXXXX", (int)kept,
+                                      place->path, LONGEST_BASE, place->path + kept);
+    if (length >= MOST_PATH) {
         errno = ENAMETOOLONG;
         return -1;
     }
     const mode_t mode = folder ? 0777 : 0666;
     const int made = make(temporary, folder, is_new ? mode : mode & 0700);
-    if (made >= 0 || place->kind != ACCEL_PLACE_FILE ||
+    if (made >= 0 || place->kind != PLACE_FILE ||
         (errno != EACCES && errno != EPERM && errno != EROFS)) {
         return made;
     }
     const char *elsewhere = getenv("TMPDIR");
-    snprintf(temporary, ACCEL_MOST_PATH, "%.4000s/accel.XXXXXX",
+    snprintf(temporary, MOST_PATH, "%.4000s/accel.XXXXXX",
              elsewhere == NULL || *elsewhere == '\0' ? "/tmp" : elsewhere);
     return make(temporary, folder, 0600);
 }

@@ -73,24 +73,24 @@ static bool has_room(int to, off_t size)
            (errno != ENOSPC && errno != EDQUOT && errno != EFBIG);
 }
 
-static accel_placed copy_into(int from, int to)
+static enum placed copy_into(int from, int to)
 {
     struct stat fresh, old;
     off_t done;
     if (fstat(from, &fresh) != 0 || fstat(to, &old) != 0) {
-        return ACCEL_NOT_PLACED;
+        return NOT_PLACED;
     }
     const off_t common = fresh.st_size < old.st_size ? fresh.st_size : old.st_size;
     if (!has_room(to, fresh.st_size) || lseek(to, common, SEEK_SET) < 0 ||
         (fresh.st_size > old.st_size &&
          !(copy(from, common, fresh.st_size, to, &done) && on_disk(to)))) {
         cut(to, old.st_size);
-        return ACCEL_NOT_PLACED;
+        return NOT_PLACED;
     }
     return lseek(to, 0, SEEK_SET) == 0 && copy(from, 0, common, to, &done) &&
                    ftruncate(to, fresh.st_size) == 0 && on_disk(to)
-               ? ACCEL_PLACED
-               : ACCEL_HALF_PLACED;
+               ? PLACED
+               : HALF_PLACED;
 }
 
 /* --------------------------------------------------------------------- move ---- */
@@ -107,7 +107,7 @@ static bool has_attributes(const char *names, ssize_t size)
     return size < 0 && errno != ENOTSUP;
 }
 
-bool accel_place_dress(int descriptor, const char *path, const struct stat *old)
+bool place_dress(int descriptor, const char *path, const struct stat *old)
 {
     char names[4096];
     struct stat fresh;
@@ -121,47 +121,46 @@ bool accel_place_dress(int descriptor, const char *path, const struct stat *old)
            !has_attributes(names, listxattr(path, names, sizeof names));
 }
 
-static accel_placed place(int descriptor, const char *temporary, const char *path)
+static enum placed place(int descriptor, const char *temporary, const char *path)
 {
     struct stat old;
     if (lstat(path, &old) != 0) {
-        return errno == ENOENT && rename(temporary, path) == 0 ? ACCEL_PLACED : ACCEL_NOT_PLACED;
+        return errno == ENOENT && rename(temporary, path) == 0 ? PLACED : NOT_PLACED;
     }
     if (!S_ISREG(old.st_mode)) {
         errno = EEXIST;
-        return ACCEL_NOT_PLACED;
+        return NOT_PLACED;
     }
-    if (old.st_nlink == 1 && accel_place_dress(descriptor, path, &old) &&
-        rename(temporary, path) == 0) {
-        return ACCEL_PLACED;
+    if (old.st_nlink == 1 && place_dress(descriptor, path, &old) && rename(temporary, path) == 0) {
+        return PLACED;
     }
     const int to = open(path, O_WRONLY | O_NOFOLLOW | O_NOCTTY | O_CLOEXEC);
     if (to < 0) {
-        return ACCEL_NOT_PLACED;
+        return NOT_PLACED;
     }
-    accel_placed placed = copy_into(descriptor, to);
-    if (close(to) != 0 && placed == ACCEL_PLACED) {
-        placed = ACCEL_HALF_PLACED;
+    enum placed placed = copy_into(descriptor, to);
+    if (close(to) != 0 && placed == PLACED) {
+        placed = HALF_PLACED;
     }
-    if (placed == ACCEL_PLACED) {
+    if (placed == PLACED) {
         unlink(temporary);
     }
     return placed;
 }
 
-accel_placed accel_place_file(int descriptor, const char *temporary, const char *path)
+enum placed place_file(int descriptor, const char *temporary, const char *path)
 {
     if (!on_disk(descriptor)) {
-        return ACCEL_NOT_PLACED;
+        return NOT_PLACED;
     }
     sigset_t before;
-    accel_signals_hold(&before);
-    const accel_placed placed = place(descriptor, temporary, path);
+    signals_hold(&before);
+    const enum placed placed = place(descriptor, temporary, path);
     const int trouble = errno;
-    if (placed != ACCEL_NOT_PLACED) {
-        accel_unfinished_done();
+    if (placed != NOT_PLACED) {
+        unfinished_done();
     }
-    accel_signals_go_on(&before);
+    signals_go_on(&before);
     errno = trouble;
     return placed;
 }
@@ -179,7 +178,7 @@ static void take_back(int stream, const struct stat *before, off_t *done)
     }
 }
 
-const char *accel_place_stream(int descriptor, int stream, uint64_t *arrived)
+const char *place_stream(int descriptor, int stream, uint64_t *arrived)
 {
     struct stat whole, before;
     sigset_t signals;
@@ -189,7 +188,7 @@ const char *accel_place_stream(int descriptor, int stream, uint64_t *arrived)
     }
     const bool is_file = S_ISREG(before.st_mode);
     if (is_file) {
-        accel_signals_hold(&signals);
+        signals_hold(&signals);
     }
     const char *trouble =
         copy(descriptor, 0, whole.st_size, stream, &done) && (!is_file || on_disk(stream))
@@ -199,7 +198,7 @@ const char *accel_place_stream(int descriptor, int stream, uint64_t *arrived)
         if (trouble != NULL) {
             take_back(stream, &before, &done);
         }
-        accel_signals_go_on(&signals);
+        signals_go_on(&signals);
     }
     *arrived = (uint64_t)done;
     return trouble;

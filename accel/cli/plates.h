@@ -9,17 +9,17 @@
 
 /* From a point to the parallel rectangle a x b at distance 1 with a corner above it; for negative
  * sides the value changes its sign, so that corners add up to any rectangle. Howell, B-3. */
-static inline double accel_corner_form_factor(double a, double b)
+static inline double corner_form_factor(double a, double b)
 {
     const double a1 = sqrt(1.0 + a * a), b1 = sqrt(1.0 + b * b);
     return (a / a1 * atan(b / a1) + b / b1 * atan(a / b1)) / (2.0 * 3.141592653589793);
 }
 
 /* From the point (x, z) of the unit square y = 0 to the whole unit square y = 1. */
-static inline double accel_ceiling_form_factor(double x, double z)
+static inline double ceiling_form_factor(double x, double z)
 {
-    return accel_corner_form_factor(1.0 - x, 1.0 - z) + accel_corner_form_factor(x, 1.0 - z) +
-           accel_corner_form_factor(1.0 - x, z) + accel_corner_form_factor(x, z);
+    return corner_form_factor(1.0 - x, 1.0 - z) + corner_form_factor(x, 1.0 - z) +
+           corner_form_factor(1.0 - x, z) + corner_form_factor(x, z);
 }
 
 #endif

@@ -8,24 +8,24 @@
 #include <time.h>
 #include <unistd.h>
 
-double accel_seconds(void)
+double seconds_now(void)
 {
     struct timespec now;
     clock_gettime(CLOCK_MONOTONIC, &now);
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-accel_progress accel_progress_start(bool quiet)
+struct progress progress_start(bool quiet)
 {
-    return (accel_progress){.shown = !quiet && isatty(STDERR_FILENO), .start = accel_seconds()};
+    return (struct progress){.shown = !quiet && isatty(STDERR_FILENO), .start = seconds_now()};
 }
 
-void accel_progress_show(accel_progress *progress, const char *phase, double done)
+void progress_show(struct progress *progress, const char *phase, double done)
 {
     if (!progress->shown) {
         return;
     }
-    const double now = accel_seconds();
+    const double now = seconds_now();
     if (now - progress->start < 1.0 || now - progress->last < 0.1) {
         return;
     }
@@ -41,7 +41,7 @@ void accel_progress_show(accel_progress *progress, const char *phase, double don
     fflush(stderr);
 }
 
-void accel_progress_clear(accel_progress *progress)
+void progress_clear(struct progress *progress)
 {
     if (progress->dirty) {
         fprintf(stderr, "\r\033[K");
@@ -50,13 +50,13 @@ void accel_progress_clear(accel_progress *progress)
     }
 }
 
-bool accel_progress_build(void *user, const char *phase, double done)
+bool progress_build(void *user, const char *phase, double done)
 {
-    accel_progress_show(user, phase, done);
+    progress_show(user, phase, done);
     return true;
 }
 
-void accel_progress_load(void *user, const char *phase)
+void progress_load(void *user, const char *phase)
 {
-    accel_progress_show(user, phase, -1.0);
+    progress_show(user, phase, -1.0);
 }

@@ -9,29 +9,29 @@
 #include <stdbool.h>
 
 /* The progress of one run. Used by one thread. */
-typedef struct accel_progress {
+struct progress {
     bool shown;       /* may be shown at all */
     bool dirty;       /* a line stands on the terminal */
     double start;     /* seconds */
     double last;      /* when the line was last written */
     const char *what; /* in front of the phase, or NULL */
-} accel_progress;
+};
 
 /* Seconds of a clock that only runs forward. */
-double accel_seconds(void);
+double seconds_now(void);
 
-accel_progress accel_progress_start(bool quiet);
+struct progress progress_start(bool quiet);
 
 /* Shows "what phase 42 %"; a negative `done` shows the seconds instead. */
-void accel_progress_show(accel_progress *progress, const char *phase, double done);
+void progress_show(struct progress *progress, const char *phase, double done);
 
 /* Removes the line. */
-void accel_progress_clear(accel_progress *progress);
+void progress_clear(struct progress *progress);
 
-/* For accel_hooks.progress; `user` is the accel_progress. */
-bool accel_progress_build(void *user, const char *phase, double done);
+/* For accel_hooks.progress; `user` is the struct progress. */
+bool progress_build(void *user, const char *phase, double done);
 
-/* For accel_load_scene; `user` is the accel_progress. */
-void accel_progress_load(void *user, const char *phase);
+/* For load_scene; `user` is the struct progress. */
+void progress_load(void *user, const char *phase);
 
 #endif

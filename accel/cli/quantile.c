@@ -9,12 +9,12 @@ static int compare(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-void accel_sort_values(double *values, size_t count)
+void sort_values(double *values, size_t count)
 {
     qsort(values, count, sizeof *values, compare);
 }
 
-double accel_quantile(const double *sorted, size_t count, double part)
+double quantile(const double *sorted, size_t count, double part)
 {
     const double at = part * (double)(count - 1);
     const size_t below = (size_t)at, above = below + 1 < count ? below + 1 : below;

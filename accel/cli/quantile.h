@@ -8,9 +8,9 @@
 #include <stddef.h>
 
 /* Sorts by rising value. */
-void accel_sort_values(double *values, size_t count);
+void sort_values(double *values, size_t count);
 
 /* The value at `part` (0..1) of count > 0 sorted ones, between two of them in proportion. */
-double accel_quantile(const double *sorted, size_t count, double part);
+double quantile(const double *sorted, size_t count, double part);
 
 #endif

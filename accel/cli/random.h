@@ -10,23 +10,23 @@
 #include <stdint.h>
 
 /* A sequence of random numbers. */
-typedef struct accel_random {
+struct random {
     philox4x32_key_t key;     /* the seed */
     philox4x32_ctr_t counter; /* index, stream, position in the sequence */
     philox4x32_ctr_t block;   /* four words at this position */
     unsigned left;            /* pairs of words in `block` not handed out yet */
-} accel_random;
+};
 
-static inline accel_random accel_random_start(uint64_t seed, uint32_t stream, uint64_t index)
+static inline struct random random_start(uint64_t seed, uint32_t stream, uint64_t index)
 {
-    return (accel_random){
+    return (struct random){
         .key = {{(uint32_t)seed, (uint32_t)(seed >> 32)}},
         .counter = {{(uint32_t)index, (uint32_t)(index >> 32), stream, 0}},
     };
 }
 
 /* 64 random bits. */
-static inline uint64_t accel_random_bits(accel_random *random)
+static inline uint64_t random_bits(struct random *random)
 {
     if (random->left == 0) {
         random->block = philox4x32(random->counter, random->key);
@@ -39,21 +39,21 @@ static inline uint64_t accel_random_bits(accel_random *random)
 }
 
 /* Uniform in [0, 1): a multiple of 2^-53. */
-static inline double accel_random_unit(accel_random *random)
+static inline double random_unit(struct random *random)
 {
-    return (double)(accel_random_bits(random) >> 11) * 0x1p-53;
+    return (double)(random_bits(random) >> 11) * 0x1p-53;
 }
 
 /* Uniform in [lo, hi), up to rounding. */
-static inline double accel_random_in(accel_random *random, double lo, double hi)
+static inline double random_in(struct random *random, double lo, double hi)
 {
-    return lo + (hi - lo) * accel_random_unit(random);
+    return lo + (hi - lo) * random_unit(random);
 }
 
 /* Uniform in 0..count - 1; the bias is below count * 2^-64. */
-static inline uint64_t accel_random_below(accel_random *random, uint64_t count)
+static inline uint64_t random_below(struct random *random, uint64_t count)
 {
-    return accel_random_bits(random) % count;
+    return random_bits(random) % count;
 }
 
 #endif

@@ -12,14 +12,15 @@
 
 static const char separators[] = " \t\v\f,;";
 
-accel_ray_lines accel_ray_lines_start(const accel_file *file)
+struct ray_lines ray_lines_start(const struct file *file)
 {
     const bool marked = file->size >= 3 && memcmp(file->bytes, "\xEF\xBB\xBF", 3) == 0;
-    return (accel_ray_lines){.at = file->bytes + (marked ? 3 : 0), .end = file->bytes + file->size};
+    return (struct ray_lines){.at = file->bytes + (marked ? 3 : 0),
+                              .end = file->bytes + file->size};
 }
 
 /* Cuts off the next line and its comment. False: a zero byte is in it, behind which more may be. */
-static bool take_line(accel_ray_lines *lines)
+static bool take_line(struct ray_lines *lines)
 {
     char *stop = lines->line = lines->at;
     while (stop < lines->end && *stop != '\n' && *stop != '\r') {
@@ -94,7 +95,7 @@ static bool read_ray(char *line, accel_ray *ray)
         return false;
     }
     make_blanks(line);
-    return accel_read_ray(line, ray);
+    return ray_from_text(line, ray);
 }
 
 /* Does every word begin with a letter or a quote, and is none a number? */
@@ -114,18 +115,18 @@ static bool names_columns(const char *line)
     return some;
 }
 
-accel_ray_line accel_next_ray(accel_ray_lines *lines, accel_ray *ray)
+enum ray_line next_ray(struct ray_lines *lines, accel_ray *ray)
 {
     while (lines->at < lines->end) {
         if (!take_line(lines)) {
-            return ACCEL_NO_RAY_LINE;
+            return NO_RAY_LINE;
         }
         const bool empty = lines->line[strspn(lines->line, " \t\v\f")] == '\0';
         const bool names = !empty && !lines->begun && names_columns(lines->line);
         lines->begun = lines->begun || !empty;
         if (!empty && !names) {
-            return read_ray(lines->line, ray) ? ACCEL_RAY_LINE : ACCEL_NO_RAY_LINE;
+            return read_ray(lines->line, ray) ? RAY_LINE : NO_RAY_LINE;
         }
     }
-    return ACCEL_RAY_LINES_END;
+    return RAY_LINES_END;
 }

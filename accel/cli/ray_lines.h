@@ -14,24 +14,20 @@
 #include "file.h"
 
 /* A walk over the lines. */
-typedef struct accel_ray_lines {
+struct ray_lines {
     char *at, *end; /* the text that is left, and a byte behind it that can be written */
     char *line;     /* the last one, with a zero at its end */
     size_t number;  /* of the last line, counted from 1 */
     bool begun;     /* a ray or the names of columns have been there */
-} accel_ray_lines;
+};
 
 /* Starts at the first line of a file, whose bytes are overwritten. */
-accel_ray_lines accel_ray_lines_start(const accel_file *file);
+struct ray_lines ray_lines_start(const struct file *file);
 
-/* What accel_next_ray found. */
-typedef enum accel_ray_line {
-    ACCEL_RAY_LINES_END,
-    ACCEL_RAY_LINE,
-    ACCEL_NO_RAY_LINE
-} accel_ray_line;
+/* What next_ray found. */
+enum ray_line { RAY_LINES_END, RAY_LINE, NO_RAY_LINE };
 
 /* Takes lines up to the next ray, or to one that is no ray. */
-accel_ray_line accel_next_ray(accel_ray_lines *lines, accel_ray *ray);
+enum ray_line next_ray(struct ray_lines *lines, accel_ray *ray);
 
 #endif

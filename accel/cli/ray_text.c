@@ -11,17 +11,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-void accel_write_ray(const accel_ray *ray, char text[ACCEL_RAY_TEXT])
+void write_ray(const accel_ray *ray, char text[RAY_TEXT])
 {
     const double numbers[8] = {ray->org[0], ray->org[1], ray->org[2], ray->dir[0],
                                ray->dir[1], ray->dir[2], ray->tmin,   ray->tmax};
     int length = 0;
     for (int i = 0; i < 8; i++) {
-        length += snprintf(text + length, (size_t)(ACCEL_RAY_TEXT - length), "%s%a",
-                           i == 0 ? "" : " ", numbers[i]);
+        length += snprintf(text + length, (size_t)(RAY_TEXT - length), "%s%a", i == 0 ? "" : " ",
+                           numbers[i]);
     }
     if (ray->skip.geom != ACCEL_NONE) {
-        snprintf(text + length, (size_t)(ACCEL_RAY_TEXT - length), " %" PRIu32 " %" PRIu32,
+        snprintf(text + length, (size_t)(RAY_TEXT - length), " %" PRIu32 " %" PRIu32,
                  ray->skip.geom, ray->skip.prim);
     }
 }
@@ -54,7 +54,7 @@ static bool read_ray_word(const char *word, size_t length, int i, accel_ray *ray
     return read_number(word, length, numbers[i]);
 }
 
-bool accel_read_ray(const char *text, accel_ray *ray)
+bool ray_from_text(const char *text, accel_ray *ray)
 {
     *ray = (accel_ray){.tmax = (double)INFINITY, .skip = {ACCEL_NONE, ACCEL_NONE}};
     int words = 0;

@@ -8,12 +8,12 @@
 #include <accel/accel.h>
 
 /* Room for the text of a ray: eight hex floats of up to 25 bytes and two ids. */
-enum { ACCEL_RAY_TEXT = 300 };
+enum { RAY_TEXT = 300 };
 
-/* Writes a ray so that accel_read_ray gives back its bits, but for the payload of a NaN. */
-void accel_write_ray(const accel_ray *ray, char text[ACCEL_RAY_TEXT]);
+/* Writes a ray so that ray_from_text gives back its bits, but for the payload of a NaN. */
+void write_ray(const accel_ray *ray, char text[RAY_TEXT]);
 
 /* Reads a ray: without tmin and tmax, 0 and infinity. False where the text is something else. */
-bool accel_read_ray(const char *text, accel_ray *ray);
+bool ray_from_text(const char *text, accel_ray *ray);
 
 #endif

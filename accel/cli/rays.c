@@ -28,20 +28,20 @@ typedef struct place {
     double away[3];  /* a normal, any length */
 } place;
 
-static const char *const names[ACCEL_FAMILIES] = {
+static const char *const names[FAMILIES] = {
     "primary", "lines",   "inside", "bounce", "vertex",   "edge",
     "axis",    "grazing", "far",    "scaled", "interval", "odd",
 };
 
-const char *accel_family_name(accel_family family)
+const char *family_name(enum family family)
 {
     return names[family];
 }
 
-accel_rays accel_rays_start(const accel_scene *scene, uint64_t seed)
+struct rays rays_start(const accel_scene *scene, uint64_t seed)
 {
-    accel_rays rays = {.scene = scene, .primitives = accel_scene_primitives(scene), .seed = seed};
-    accel_scene_box(scene, &rays.box);
+    struct rays rays = {.scene = scene, .primitives = scene_primitives(scene), .seed = seed};
+    scene_box(scene, &rays.box);
     double square = 0.0;
     for (int k = 0; k < 3; k++) {
         const double half = 0.5 * rays.box.hi[k] - 0.5 * rays.box.lo[k];
@@ -50,8 +50,8 @@ accel_rays accel_rays_start(const accel_scene *scene, uint64_t seed)
     }
     rays.radius = square > 0.0 && isfinite(square) ? sqrt(square) : 1.0;
     double eye[3], at[3];
-    accel_camera_frame(&rays.box, eye, at);
-    accel_camera_make(&rays.camera, eye, at, 40.0, 1024, 768);
+    camera_frame(&rays.box, eye, at);
+    camera_make(&rays.camera, eye, at, 40.0, 1024, 768);
     return rays;
 }
 
@@ -84,39 +84,39 @@ static void cross(double to[3], const double a[3], const double b[3])
     }
 }
 
-static double random_sign(accel_random *random)
+static double random_sign(struct random *random)
 {
-    return (accel_random_bits(random) & 1) != 0 ? 1.0 : -1.0;
+    return (random_bits(random) & 1) != 0 ? 1.0 : -1.0;
 }
 
 /* Uniform on the unit sphere (Marsaglia 1972: the height is uniform). */
-static void unit_vector(accel_random *random, double out[3])
+static void unit_vector(struct random *random, double out[3])
 {
-    const double z = accel_random_in(random, -1.0, 1.0);
-    const double angle = accel_random_in(random, 0.0, 6.283185307179586);
+    const double z = random_in(random, -1.0, 1.0);
+    const double angle = random_in(random, 0.0, 6.283185307179586);
     const double ring = sqrt(1.0 - z * z);
     out[0] = ring * cos(angle);
     out[1] = ring * sin(angle);
     out[2] = z;
 }
 
-static void point_in_box(const accel_rays *rays, accel_random *random, double out[3])
+static void point_in_box(const struct rays *rays, struct random *random, double out[3])
 {
     for (int k = 0; k < 3; k++) {
-        out[k] = accel_random_in(random, rays->box.lo[k], rays->box.hi[k]);
+        out[k] = random_in(random, rays->box.lo[k], rays->box.hi[k]);
     }
 }
 
-static void point_outside(const accel_rays *rays, accel_random *random, double out[3])
+static void point_outside(const struct rays *rays, struct random *random, double out[3])
 {
     unit_vector(random, out);
-    const double distance = rays->radius * accel_random_in(random, 1.0, 3.0);
+    const double distance = rays->radius * random_in(random, 1.0, 3.0);
     for (int k = 0; k < 3; k++) {
         out[k] = rays->centre[k] + distance * out[k];
     }
 }
 
-static void read_sphere(const double *sphere, accel_random *random, target *out)
+static void read_sphere(const double *sphere, struct random *random, target *out)
 {
     copy(out->centre, sphere);
     out->radius = sphere[3];
@@ -127,10 +127,10 @@ static void read_sphere(const double *sphere, accel_random *random, target *out)
 }
 
 /* Any primitive, all with the same chance; in an empty scene a triangle of the box. */
-static target any_target(const accel_rays *rays, accel_random *random)
+static target any_target(const struct rays *rays, struct random *random)
 {
     target out = {.id = {ACCEL_NONE, ACCEL_NONE}};
-    uint64_t left = rays->primitives == 0 ? 0 : accel_random_below(random, rays->primitives);
+    uint64_t left = rays->primitives == 0 ? 0 : random_below(random, rays->primitives);
     for (uint32_t g = 0; g < rays->scene->count; g++) {
         const accel_geometry *geometry = &rays->scene->geometries[g];
         const uint32_t count = geometry->type == ACCEL_TRIANGLES ? geometry->triangles.count
@@ -143,12 +143,12 @@ static target any_target(const accel_rays *rays, accel_random *random)
         out.id = (accel_id){g, (uint32_t)left};
         if (geometry->type == ACCEL_TRIANGLES) {
             for (int corner = 0; corner < 3; corner++) {
-                accel_scene_vertex(&geometry->triangles, out.id.prim, corner, out.corners[corner]);
+                scene_vertex(&geometry->triangles, out.id.prim, corner, out.corners[corner]);
             }
             return out;
         }
         if (geometry->type == ACCEL_SPHERES) {
-            read_sphere(accel_scene_sphere(&geometry->spheres, out.id.prim), random, &out);
+            read_sphere(scene_sphere(&geometry->spheres, out.id.prim), random, &out);
             return out;
         }
         break;
@@ -159,40 +159,40 @@ static target any_target(const accel_rays *rays, accel_random *random)
     return out;
 }
 
-static void any_vertex(const accel_rays *rays, accel_random *random, double out[3])
+static void any_vertex(const struct rays *rays, struct random *random, double out[3])
 {
     const target t = any_target(rays, random);
-    copy(out, t.corners[accel_random_below(random, 3)]);
+    copy(out, t.corners[random_below(random, 3)]);
 }
 
-static void any_edge_point(const accel_rays *rays, accel_random *random, double out[3])
+static void any_edge_point(const struct rays *rays, struct random *random, double out[3])
 {
     const target t = any_target(rays, random);
-    const size_t from = accel_random_below(random, 3);
+    const size_t from = random_below(random, 3);
     if (t.radius == 0.0) {
-        between(out, t.corners[from], t.corners[(from + 1) % 3], accel_random_unit(random));
+        between(out, t.corners[from], t.corners[(from + 1) % 3], random_unit(random));
         return;
     }
-    const double angle = accel_random_in(random, 0.0, 6.283185307179586);
+    const double angle = random_in(random, 0.0, 6.283185307179586);
     copy(out, t.centre);
     out[from] += t.radius * cos(angle);
     out[(from + 1) % 3] += t.radius * sin(angle);
 }
 
-static place place_on_triangle(const target *t, accel_random *random)
+static place place_on_triangle(const target *t, struct random *random)
 {
     place out;
     double first[3], second[3], middle[3];
     minus(first, t->corners[1], t->corners[0]);
     minus(second, t->corners[2], t->corners[0]);
-    between(middle, t->corners[1], t->corners[2], accel_random_unit(random));
-    between(out.at, t->corners[0], middle, sqrt(accel_random_unit(random)));
-    between(out.along, first, second, accel_random_unit(random));
+    between(middle, t->corners[1], t->corners[2], random_unit(random));
+    between(out.at, t->corners[0], middle, sqrt(random_unit(random)));
+    between(out.along, first, second, random_unit(random));
     cross(out.away, first, second);
     return out;
 }
 
-static place place_on_sphere(const target *t, accel_random *random)
+static place place_on_sphere(const target *t, struct random *random)
 {
     place out;
     double other[3];
@@ -205,7 +205,7 @@ static place place_on_sphere(const target *t, accel_random *random)
     return out;
 }
 
-static place any_place(const accel_rays *rays, accel_random *random, accel_id *id)
+static place any_place(const struct rays *rays, struct random *random, accel_id *id)
 {
     const target t = any_target(rays, random);
     *id = t.id;
@@ -213,9 +213,9 @@ static place any_place(const accel_rays *rays, accel_random *random, accel_id *i
 }
 
 /* Outside, inside, or at a vertex. */
-static void any_origin(const accel_rays *rays, accel_random *random, double out[3])
+static void any_origin(const struct rays *rays, struct random *random, double out[3])
 {
-    switch (accel_random_below(random, 3)) {
+    switch (random_below(random, 3)) {
     case 0:
         point_outside(rays, random, out);
         break;
@@ -234,22 +234,22 @@ static accel_ray aimed(const double from[3], const double at[3])
     return accel_ray_from(from, direction);
 }
 
-static accel_ray make_primary(const accel_rays *rays, accel_random *random)
+static accel_ray make_primary(const struct rays *rays, struct random *random)
 {
-    const double i = accel_random_in(random, -0.5, 1023.5);
-    return accel_camera_ray(&rays->camera, i, accel_random_in(random, -0.5, 767.5));
+    const double i = random_in(random, -0.5, 1023.5);
+    return camera_ray(&rays->camera, i, random_in(random, -0.5, 767.5));
 }
 
-static accel_ray make_line(const accel_rays *rays, accel_random *random)
+static accel_ray make_line(const struct rays *rays, struct random *random)
 {
     double first[3], second[3], from[3];
     point_in_box(rays, random, first);
     point_in_box(rays, random, second);
-    between(from, first, second, -accel_random_in(random, 0.0, 4.0));
+    between(from, first, second, -random_in(random, 0.0, 4.0));
     return aimed(from, second);
 }
 
-static accel_ray make_inside(const accel_rays *rays, accel_random *random)
+static accel_ray make_inside(const struct rays *rays, struct random *random)
 {
     double from[3], direction[3];
     point_in_box(rays, random, from);
@@ -257,7 +257,7 @@ static accel_ray make_inside(const accel_rays *rays, accel_random *random)
     return accel_ray_from(from, direction);
 }
 
-static accel_ray make_bounce(const accel_rays *rays, accel_random *random)
+static accel_ray make_bounce(const struct rays *rays, struct random *random)
 {
     accel_id id;
     double direction[3];
@@ -268,7 +268,7 @@ static accel_ray make_bounce(const accel_rays *rays, accel_random *random)
     return ray;
 }
 
-static accel_ray make_vertex(const accel_rays *rays, accel_random *random)
+static accel_ray make_vertex(const struct rays *rays, struct random *random)
 {
     double from[3], at[3];
     any_origin(rays, random, from);
@@ -276,7 +276,7 @@ static accel_ray make_vertex(const accel_rays *rays, accel_random *random)
     return aimed(from, at);
 }
 
-static accel_ray make_edge(const accel_rays *rays, accel_random *random)
+static accel_ray make_edge(const struct rays *rays, struct random *random)
 {
     double from[3], at[3];
     any_origin(rays, random, from);
@@ -285,27 +285,27 @@ static accel_ray make_edge(const accel_rays *rays, accel_random *random)
 }
 
 /* A plane of the lattice that halving the box makes, along axis k. */
-static double lattice_plane(const accel_rays *rays, accel_random *random, int k)
+static double lattice_plane(const struct rays *rays, struct random *random, int k)
 {
-    const double parts = (double)(1 << accel_random_below(random, 8));
-    const double part = floor(accel_random_in(random, 0.0, parts + 1.0)) / parts;
+    const double parts = (double)(1 << random_below(random, 8));
+    const double part = floor(random_in(random, 0.0, parts + 1.0)) / parts;
     return rays->box.lo[k] + part * (rays->box.hi[k] - rays->box.lo[k]);
 }
 
-static accel_ray make_axis(const accel_rays *rays, accel_random *random)
+static accel_ray make_axis(const struct rays *rays, struct random *random)
 {
     double from[3], direction[3];
     any_vertex(rays, random, from);
-    const int axis = (int)accel_random_below(random, 3);
-    const bool diagonal = accel_random_below(random, 4) == 0;
+    const int axis = (int)random_below(random, 3);
+    const bool diagonal = random_below(random, 4) == 0;
     for (int k = 0; k < 3; k++) {
         const bool moves = k == axis || (diagonal && k == (axis + 1) % 3);
         direction[k] = copysign(moves ? 1.0 : 0.0, random_sign(random));
-        if (accel_random_below(random, 8) == 0) {
+        if (random_below(random, 8) == 0) {
             from[k] = lattice_plane(rays, random, k);
         }
     }
-    if (accel_random_below(random, 2) == 0) {
+    if (random_below(random, 2) == 0) {
         const double back = 3.0 * rays->radius;
         for (int k = 0; k < 3; k++) {
             from[k] -= direction[k] * back;
@@ -314,7 +314,7 @@ static accel_ray make_axis(const accel_rays *rays, accel_random *random)
     return accel_ray_from(from, direction);
 }
 
-static accel_ray make_grazing(const accel_rays *rays, accel_random *random)
+static accel_ray make_grazing(const struct rays *rays, struct random *random)
 {
     accel_id id;
     double from[3], direction[3];
@@ -323,9 +323,9 @@ static accel_ray make_grazing(const accel_rays *rays, accel_random *random)
         sqrt(at.along[0] * at.along[0] + at.along[1] * at.along[1] + at.along[2] * at.along[2]);
     const double height =
         sqrt(at.away[0] * at.away[0] + at.away[1] * at.away[1] + at.away[2] * at.away[2]);
-    const double lift = random_sign(random) * pow(10.0, -accel_random_in(random, 2.0, 15.0));
-    const double back = accel_random_in(random, 0.0, 2.0) *
-                        (accel_random_below(random, 2) == 0 ? rays->radius : length);
+    const double lift = random_sign(random) * pow(10.0, -random_in(random, 2.0, 15.0));
+    const double back =
+        random_in(random, 0.0, 2.0) * (random_below(random, 2) == 0 ? rays->radius : length);
     for (int k = 0; k < 3; k++) {
         direction[k] = at.along[k] / length + lift * at.away[k] / height;
         from[k] = at.at[k] - back * direction[k];
@@ -333,12 +333,12 @@ static accel_ray make_grazing(const accel_rays *rays, accel_random *random)
     return accel_ray_from(from, direction);
 }
 
-static accel_ray make_far(const accel_rays *rays, accel_random *random)
+static accel_ray make_far(const struct rays *rays, struct random *random)
 {
     accel_id id;
     double from[3];
     const place at = any_place(rays, random, &id);
-    const double distance = rays->radius * pow(10.0, accel_random_in(random, 3.0, 14.0));
+    const double distance = rays->radius * pow(10.0, random_in(random, 3.0, 14.0));
     unit_vector(random, from);
     for (int k = 0; k < 3; k++) {
         from[k] = rays->centre[k] + distance * from[k];
@@ -346,11 +346,11 @@ static accel_ray make_far(const accel_rays *rays, accel_random *random)
     return aimed(from, at.at);
 }
 
-static accel_ray make_scaled(const accel_rays *rays, accel_random *random)
+static accel_ray make_scaled(const struct rays *rays, struct random *random)
 {
     accel_ray ray =
-        accel_random_below(random, 2) == 0 ? make_line(rays, random) : make_edge(rays, random);
-    const int power = (int)accel_random_below(random, 1001) - 500;
+        random_below(random, 2) == 0 ? make_line(rays, random) : make_edge(rays, random);
+    const int power = (int)random_below(random, 1001) - 500;
     for (int k = 0; k < 3; k++) {
         ray.dir[k] = ldexp(ray.dir[k], power);
     }
@@ -358,14 +358,14 @@ static accel_ray make_scaled(const accel_rays *rays, accel_random *random)
 }
 
 /* The hit is at t = 1, up to rounding. */
-static double interval_end(accel_random *random)
+static double interval_end(struct random *random)
 {
     static const double ends[] = {0.0, 0.5, 1.0, 1.0 - 0x1p-53, 1.0 + 0x1p-52, 2.0, -1.0, 1e300};
-    const uint64_t pick = accel_random_below(random, 10);
+    const uint64_t pick = random_below(random, 10);
     return pick < 8 ? ends[pick] : pick == 8 ? -(double)INFINITY : (double)INFINITY;
 }
 
-static accel_ray make_interval(const accel_rays *rays, accel_random *random)
+static accel_ray make_interval(const struct rays *rays, struct random *random)
 {
     accel_id id;
     double from[3];
@@ -376,33 +376,33 @@ static accel_ray make_interval(const accel_rays *rays, accel_random *random)
     return ray;
 }
 
-static double odd_number(accel_random *random)
+static double odd_number(struct random *random)
 {
     static const double odd[] = {0.0, DBL_TRUE_MIN, DBL_MIN, 1e-300, 1.0, 1e300, DBL_MAX};
-    const uint64_t pick = accel_random_below(random, 9);
+    const uint64_t pick = random_below(random, 9);
     const double number = pick < 7 ? odd[pick] : pick == 7 ? (double)INFINITY : (double)NAN;
     return copysign(number, random_sign(random));
 }
 
 /* All of the direction is odd, a third of the origins and a quarter of the interval's ends are. */
-static accel_ray make_odd(const accel_rays *rays, accel_random *random)
+static accel_ray make_odd(const struct rays *rays, struct random *random)
 {
     accel_ray ray = make_line(rays, random);
     for (int k = 0; k < 3; k++) {
         ray.dir[k] = odd_number(random);
-        ray.org[k] = accel_random_below(random, 9) == 0 ? odd_number(random) : ray.org[k];
+        ray.org[k] = random_below(random, 9) == 0 ? odd_number(random) : ray.org[k];
     }
-    ray.tmin = accel_random_below(random, 4) == 0 ? odd_number(random) : ray.tmin;
-    ray.tmax = accel_random_below(random, 4) == 0 ? odd_number(random) : ray.tmax;
+    ray.tmin = random_below(random, 4) == 0 ? odd_number(random) : ray.tmin;
+    ray.tmax = random_below(random, 4) == 0 ? odd_number(random) : ray.tmax;
     return ray;
 }
 
-accel_ray accel_rays_make(const accel_rays *rays, uint64_t index)
+accel_ray rays_make(const struct rays *rays, uint64_t index)
 {
-    static accel_ray (*const makers[ACCEL_FAMILIES])(const accel_rays *, accel_random *) = {
+    static accel_ray (*const makers[FAMILIES])(const struct rays *, struct random *) = {
         make_primary, make_line,    make_inside, make_bounce, make_vertex,   make_edge,
         make_axis,    make_grazing, make_far,    make_scaled, make_interval, make_odd,
     };
-    accel_random random = accel_random_start(rays->seed, STREAM_RAYS, index);
-    return makers[index % ACCEL_FAMILIES](rays, &random);
+    struct random random = random_start(rays->seed, STREAM_RAYS, index);
+    return makers[index % FAMILIES](rays, &random);
 }

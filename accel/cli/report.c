@@ -11,7 +11,7 @@
 
 enum { FLAG_OUTPUT, FLAG_QUICK, FLAG_MINUTES, FLAG_ONLY };
 
-static const accel_flag flags[] = {
+static const struct flag flags[] = {
     [FLAG_OUTPUT] = {"output", 'o', "DIR",
                      "folder to make or to fill; a former report there is replaced, nothing else"},
     [FLAG_QUICK] = {"quick", 0, NULL, "fewer rays, photons and sizes: less than two minutes"},
@@ -27,12 +27,11 @@ static const accel_flag flags[] = {
 /* The sections in the order of the page, with their shares of the time. */
 static const struct part {
     const char *name;
-    accel_report_section *run;
+    report_section *run;
     double share;
 } parts[] = {
-    {"exact", accel_report_exact, 0.15}, {"cases", accel_report_cases, 0.2},
-    {"light", accel_report_light, 0.3},  {"choice", accel_report_choice, 0.15},
-    {"size", accel_report_size, 0.2},
+    {"exact", report_exact, 0.15},   {"cases", report_cases, 0.2}, {"light", report_light, 0.3},
+    {"choice", report_choice, 0.15}, {"size", report_size, 0.2},
 };
 
 enum { PARTS = sizeof parts / sizeof parts[0] };
@@ -51,7 +50,7 @@ static bool is_asked(const request *q, size_t i)
 
 /* Each part gets its share of the time that is left, so that one that took longer shortens the
  * others. */
-static bool run_parts(accel_reporting *r, const request *q)
+static bool run_parts(struct reporting *r, const request *q)
 {
     const double end = r->progress.start + r->seconds;
     for (size_t i = 0; i < PARTS; i++) {
@@ -63,7 +62,7 @@ static bool run_parts(accel_reporting *r, const request *q)
             continue;
         }
         r->progress.what = parts[i].name;
-        const double left = fmax(0.0, end - accel_seconds());
+        const double left = fmax(0.0, end - seconds_now());
         if (!parts[i].run(r, left * parts[i].share / shares)) {
             return false;
         }
@@ -71,35 +70,34 @@ static bool run_parts(accel_reporting *r, const request *q)
     return true;
 }
 
-static bool make_report(accel_reporting *r, const request *q)
+static bool make_report(struct reporting *r, const request *q)
 {
-    r->page = accel_folder_write(&r->folder, "index.html");
+    r->page = folder_write(&r->folder, "index.html");
     if (r->page == NULL) {
-        accel_complain(r->command, "cannot write index.html: %s; nothing was written",
-                       strerror(errno));
+        complain(r->command, "cannot write index.html: %s; nothing was written", strerror(errno));
         return false;
     }
-    accel_page_open(r);
+    page_open(r);
     const bool fine = run_parts(r, q);
-    accel_progress_clear(&r->progress);
+    progress_clear(&r->progress);
     if (!fine) {
         fclose(r->page);
         return false;
     }
-    return accel_page_close(r);
+    return page_close(r);
 }
 
-static int run_request(const accel_command *command, const request *q, bool quiet)
+static int run_request(const struct command *command, const request *q, bool quiet)
 {
-    accel_reporting r = {
-        .command = command, .progress = accel_progress_start(quiet), .seconds = 60.0 * q->minutes};
-    const char *missing = accel_plot_missing();
+    struct reporting r = {
+        .command = command, .progress = progress_start(quiet), .seconds = 60.0 * q->minutes};
+    const char *missing = plot_missing();
     if (missing != NULL) {
-        return accel_complain(command, "%s; nothing was written", missing);
+        return complain(command, "%s; nothing was written", missing);
     }
     accel_error error;
-    if (!accel_folder_open(&r.folder, q->output, &error)) {
-        return accel_complain(command, "%s", error.text);
+    if (!folder_open(&r.folder, q->output, &error)) {
+        return complain(command, "%s", error.text);
     }
     if (q->minutes > 0.0) {
         printf("at most about %.0f %s; %s/index.html appears at the end\n",
@@ -108,33 +106,32 @@ static int run_request(const accel_command *command, const request *q, bool quie
         fflush(stdout);
     }
     if (!make_report(&r, q)) {
-        accel_folder_abandon(&r.folder);
-        return ACCEL_EXIT_BAD;
+        folder_abandon(&r.folder);
+        return EXIT_BAD;
     }
-    if (!accel_folder_commit(&r.folder, &error)) {
-        return accel_complain(command, "%s", error.text);
+    if (!folder_commit(&r.folder, &error)) {
+        return complain(command, "%s", error.text);
     }
     printf("%s/index.html: %llu answers of ours judged, %llu wrong; %.0f s\n", q->output,
            (unsigned long long)r.judged, (unsigned long long)r.wrong,
-           accel_seconds() - r.progress.start);
-    return r.wrong == 0 ? ACCEL_EXIT_FINE : ACCEL_EXIT_DIFFERENT;
+           seconds_now() - r.progress.start);
+    return r.wrong == 0 ? EXIT_FINE : EXIT_DIFFERENT;
 }
 
 /* ---------------------------------------------------------------- arguments ---- */
 
-static bool read_minutes(const accel_arguments *a, request *q)
+static bool read_minutes(const struct arguments *a, request *q)
 {
     double value;
-    if (accel_read_number(a->value, strlen(a->value), &value) && value >= 0.0 && value <= 1440.0) {
+    if (read_number(a->value, strlen(a->value), &value) && value >= 0.0 && value <= 1440.0) {
         q->minutes = value;
         return true;
     }
-    accel_complain(a->command, "--minutes is '%.60s'; allowed is a number from 0 to 1440",
-                   a->value);
+    complain(a->command, "--minutes is '%.60s'; allowed is a number from 0 to 1440", a->value);
     return false;
 }
 
-static bool read_part(const accel_arguments *a, request *q)
+static bool read_part(const struct arguments *a, request *q)
 {
     for (size_t i = 0; i < PARTS; i++) {
         if (strcmp(a->value, parts[i].name) == 0) {
@@ -142,12 +139,12 @@ static bool read_part(const accel_arguments *a, request *q)
             return true;
         }
     }
-    accel_complain(a->command, "--only is '%.60s'; allowed are exact, cases, light, choice, size",
-                   a->value);
+    complain(a->command, "--only is '%.60s'; allowed are exact, cases, light, choice, size",
+             a->value);
     return false;
 }
 
-static bool read_flag(const accel_arguments *a, int flag, request *q)
+static bool read_flag(const struct arguments *a, int flag, request *q)
 {
     switch (flag) {
     case FLAG_OUTPUT:
@@ -161,32 +158,32 @@ static bool read_flag(const accel_arguments *a, int flag, request *q)
     case FLAG_ONLY:
         return read_part(a, q);
     default:
-        accel_complain(a->command, "unexpected '%.60s'", a->value);
+        complain(a->command, "unexpected '%.60s'", a->value);
         return false;
     }
 }
 
-static int run(const accel_command *command, int argc, char **argv)
+static int run(const struct command *command, int argc, char **argv)
 {
     request q = {.minutes = 60.0};
-    accel_arguments arguments = accel_arguments_start(command, argc, argv);
+    struct arguments arguments = arguments_start(command, argc, argv);
     int flag;
-    while ((flag = accel_next_argument(&arguments)) != ACCEL_ARGUMENT_END) {
-        if (flag == ACCEL_ARGUMENT_STOP) {
+    while ((flag = next_argument(&arguments)) != ARGUMENT_END) {
+        if (flag == ARGUMENT_STOP) {
             return arguments.exit_code;
         }
         if (!read_flag(&arguments, flag, &q)) {
-            return ACCEL_EXIT_BAD;
+            return EXIT_BAD;
         }
     }
     if (q.output == NULL) {
-        return accel_complain(command, "no -o DIR is given; usage: accel %s %s", command->name,
-                              command->arguments);
+        return complain(command, "no -o DIR is given; usage: accel %s %s", command->name,
+                        command->arguments);
     }
     return run_request(command, &q, arguments.quiet);
 }
 
-const accel_command accel_command_report = {
+const struct command command_report = {
     .name = "report",
     .arguments = "-o DIR [OPTION]...",
     .summary = "error against run time: a page with plots, and the figures behind them",

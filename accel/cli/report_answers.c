@@ -8,7 +8,7 @@
 /* What Embree's rays may hold: it ends the program at others (ray.h: valid, FLT_LARGE). */
 #define PEER_RANGE 1.844e18
 
-bool accel_peer_reaches(const accel_ray *ray)
+bool peer_reaches(const accel_ray *ray)
 {
     for (int k = 0; k < 3; k++) {
         if (!(fabs(ray->org[k]) <= PEER_RANGE) || !(fabs(ray->dir[k]) <= PEER_RANGE)) {
@@ -19,12 +19,12 @@ bool accel_peer_reaches(const accel_ray *ray)
 }
 
 /* Embree has no hits behind the origin: such a ray is not its fault. */
-bool accel_peer_asked(const accel_ray *ray)
+bool peer_asked(const accel_ray *ray)
 {
     return !(ray->tmin < 0.0);
 }
 
-static size_t trace_ours(const accel_contender *c, const accel_ray_set *set)
+static size_t trace_ours(const struct bench_contender *c, const struct ray_set *set)
 {
     size_t found = 0;
     accel_hit hit;
@@ -34,40 +34,39 @@ static size_t trace_ours(const accel_contender *c, const accel_ray_set *set)
     return found;
 }
 
-static void end_ours(accel_contender *c)
+static void end_ours(struct bench_contender *c)
 {
     accel_free(c->state);
 }
 
-accel_contender accel_exam_ours(accel *a, const char *config)
+struct bench_contender exam_ours(accel *a, const char *config)
 {
     accel_info info;
     accel_describe(a, &info);
-    accel_contender c = {.state = a,
-                         .build_seconds = info.seconds,
-                         .bytes = (double)info.bytes,
-                         .trace = trace_ours,
-                         .end = end_ours};
+    struct bench_contender c = {.state = a,
+                                .build_seconds = info.seconds,
+                                .bytes = (double)info.bytes,
+                                .trace = trace_ours,
+                                .end = end_ours};
     snprintf(c.name, sizeof c.name, "%.63s", config);
     return c;
 }
 
 /* One answer of ours: the same bits as linear's, and right. */
-static bool is_right(const accel_exam *e, const accel_contender *c, size_t i)
+static bool is_right(const struct exam *e, const struct bench_contender *c, size_t i)
 {
     accel_hit hit;
     const accel_hit *linear = &e->set.hits[i];
     const bool found = accel_closest(c->state, &e->set.rays[i], &hit, NULL);
-    const bool same = found == (linear->geom != ACCEL_NONE) &&
-                      (!found || accel_same_hit(&hit, linear)) &&
+    const bool same = found == (linear->geom != ACCEL_NONE) && (!found || same_hit(&hit, linear)) &&
                       accel_any(c->state, &e->set.rays[i], NULL) == found;
     switch (e->judge) {
-    case ACCEL_BY_HIT:
+    case BY_HIT:
         return same && found;
-    case ACCEL_BY_INTEGERS:
+    case BY_INTEGERS:
         return same && found == (e->exact[i].crossing.under != 0) &&
                (!found || crossing_is(&e->exact[i].crossing, &hit));
-    case ACCEL_BY_ORACLE:
+    case BY_ORACLE:
         return same && oracle_agrees(&e->right[i], found, &hit);
     default:
         return same;
@@ -75,7 +74,7 @@ static bool is_right(const accel_exam *e, const accel_contender *c, size_t i)
 }
 
 /* One of those that are hit first, or nothing where nothing is. */
-static bool is_tie(const accel_first *first, accel_id got)
+static bool is_tie(const struct first *first, accel_id got)
 {
     for (uint32_t i = 0; i < first->tie_count; i++) {
         if (first->ties[i].geom == got.geom && first->ties[i].prim == got.prim) {
@@ -86,20 +85,20 @@ static bool is_tie(const accel_first *first, accel_id got)
 }
 
 /* One answer of a peer. */
-static bool names_right(const accel_exam *e, const struct judgement *right,
-                        const accel_contender *peer, size_t i)
+static bool names_right(const struct exam *e, const struct judgement *right,
+                        const struct bench_contender *peer, size_t i)
 {
     const accel_ray *ray = &e->set.rays[i];
-    if (!accel_peer_asked(ray)) {
+    if (!peer_asked(ray)) {
         return true;
     }
     const accel_id none = {ACCEL_NONE, ACCEL_NONE};
-    const accel_id got = accel_peer_reaches(ray) ? peer->ask(peer, &e->set, i) : none;
+    const accel_id got = peer_reaches(ray) ? peer->ask(peer, &e->set, i) : none;
     const bool found = got.geom != ACCEL_NONE;
-    if (e->judge == ACCEL_BY_HIT) {
+    if (e->judge == BY_HIT) {
         return found;
     }
-    if (e->judge == ACCEL_BY_INTEGERS) {
+    if (e->judge == BY_INTEGERS) {
         return is_tie(&e->exact[i], got);
     }
     if (right[i].verdict != HIT) {
@@ -108,8 +107,8 @@ static bool names_right(const accel_exam *e, const struct judgement *right,
     return found && got.geom == right[i].geom && got.prim == right[i].prim;
 }
 
-static size_t count_wrong(const accel_exam *e, const struct judgement *right,
-                          const accel_contender *c)
+static size_t count_wrong(const struct exam *e, const struct judgement *right,
+                          const struct bench_contender *c)
 {
     size_t wrong = 0;
     for (size_t i = 0; i < e->set.count; i++) {
@@ -118,12 +117,12 @@ static size_t count_wrong(const accel_exam *e, const struct judgement *right,
     return wrong;
 }
 
-size_t accel_exam_wrong(const accel_exam *e, const accel_contender *c)
+size_t exam_wrong(const struct exam *e, const struct bench_contender *c)
 {
     return count_wrong(e, e->right, c);
 }
 
-size_t accel_exam_wrong_single(const accel_exam *e, const accel_contender *c)
+size_t exam_wrong_single(const struct exam *e, const struct bench_contender *c)
 {
-    return count_wrong(e, e->judge == ACCEL_BY_ORACLE ? e->single : NULL, c);
+    return count_wrong(e, e->judge == BY_ORACLE ? e->single : NULL, c);
 }

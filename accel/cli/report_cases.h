@@ -8,25 +8,25 @@
 #include "report_exam.h"
 
 /* What POV-Ray answered. */
-typedef struct accel_povray {
+struct povray {
     bool ran;     /* it has answered at all */
     size_t asked; /* rays */
     size_t lost;  /* hits that it misses */
     size_t false_hits;
     size_t off; /* hits more than a thousandth of t away */
-} accel_povray;
+};
 
 /* The version of the stock POV-Ray of this machine, or NULL. */
-const char *accel_povray_version(accel_reporting *r);
+const char *povray_version(struct reporting *r);
 
 /* Asks it about the first `most` rays of the exam that are decided. False: it did not run. */
-bool accel_povray_ask(accel_reporting *r, const accel_exam *exam, size_t most, accel_povray *out);
+bool povray_ask(struct reporting *r, const struct exam *exam, size_t most, struct povray *out);
 
 /* One row of the table. */
-typedef struct accel_case {
+struct case_row {
     const char *test, *name, *meaning; /* as in the catalogue */
     const char *scene;                 /* where rays vary, their scene; else NULL */
-    accel_judge judge;
+    enum judge judge;
     size_t rays, decided;  /* over all variants */
     size_t forms;          /* of ours that were asked */
     size_t wrong;          /* of all of them together */
@@ -35,16 +35,16 @@ typedef struct accel_case {
     size_t decided_peer;   /* rays that Embree can be asked and that are decided */
     size_t decided_single; /* rays that are decided of what it was given */
     size_t fast_single, robust_single;
-    accel_povray povray;
+    struct povray povray;
     double cost_middle; /* time per ray over that of the generic scene, median of forms */
     double cost_worst;  /* the same, most */
     char worst[64];     /* the form */
-} accel_case;
+};
 
-enum { ACCEL_MOST_CASES = 160 };
+enum { MOST_CASES = 160 };
 
 /* Writes the table. */
-void accel_cases_page(accel_reporting *r, const accel_case *rows, size_t count);
+void cases_page(struct reporting *r, const struct case_row *rows, size_t count);
 
 #define ACCEL_CASES_CSV "cases.csv"
 

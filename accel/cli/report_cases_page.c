@@ -65,7 +65,7 @@ static const struct topic {
 
 enum { TOPICS = sizeof topics / sizeof topics[0] };
 
-static void write_share(accel_reporting *r, size_t wrong, size_t n)
+static void write_share(struct reporting *r, size_t wrong, size_t n)
 {
     if (n == 0) {
         fprintf(r->page, "<td class=\"n\">-</td>");
@@ -76,7 +76,7 @@ static void write_share(accel_reporting *r, size_t wrong, size_t n)
     }
 }
 
-static void write_povray(accel_reporting *r, const accel_povray *p)
+static void write_povray(struct reporting *r, const struct povray *p)
 {
     if (!p->ran) {
         fprintf(r->page, "<td class=\"n\">-</td>");
@@ -91,16 +91,16 @@ static void write_povray(accel_reporting *r, const accel_povray *p)
     fprintf(r->page, "</td>");
 }
 
-static void write_row(accel_reporting *r, const accel_case *c)
+static void write_row(struct reporting *r, const struct case_row *c)
 {
     fprintf(r->page, "<tr><td><b>%s</b>", c->name);
     if (c->scene != NULL) {
         fprintf(r->page, " on %s", c->scene);
     }
     fprintf(r->page, "<br/><small>");
-    accel_page_escaped(r, c->meaning);
+    page_escaped(r, c->meaning);
     fprintf(r->page, "</small></td><td class=\"n\">%zu<br/><small>%s</small></td>", c->decided,
-            accel_judge_names[c->judge]);
+            judge_names[c->judge]);
     write_share(r, c->fast, c->peers ? c->decided_peer : 0);
     write_share(r, c->robust, c->peers ? c->decided_peer : 0);
     write_share(r, c->robust_single, c->peers ? c->decided_single : 0);
@@ -111,7 +111,7 @@ static void write_row(accel_reporting *r, const accel_case *c)
 }
 
 /* A topic and its cases; nothing where there are none. */
-static size_t write_topic(accel_reporting *r, const struct topic *t, const accel_case *rows,
+static size_t write_topic(struct reporting *r, const struct topic *t, const struct case_row *rows,
                           size_t count)
 {
     size_t written = 0;
@@ -122,7 +122,7 @@ static size_t write_topic(accel_reporting *r, const struct topic *t, const accel
         if (written++ == 0) {
             fprintf(r->page, "<tr><th colspan=\"8\">%s: %s <span class=\"told\">told: ", t->test,
                     t->title);
-            accel_page_escaped(r, t->told);
+            page_escaped(r, t->told);
             fprintf(r->page, "</span></th></tr>\n");
         }
         write_row(r, &rows[i]);
@@ -132,17 +132,17 @@ static size_t write_topic(accel_reporting *r, const struct topic *t, const accel
 
 /* Sums over all cases, for the words above the table. */
 typedef struct totals {
-    size_t asked, wrong;         /* ours */
-    size_t cases, fast, robust;  /* asked of Embree; in how many one answer was wrong */
-    size_t povray, povray_wrong; /* the same of POV-Ray */
-    const accel_case *dearest;   /* the most that a case costs us */
+    size_t asked, wrong;            /* ours */
+    size_t cases, fast, robust;     /* asked of Embree; in how many one answer was wrong */
+    size_t povray, povray_wrong;    /* the same of POV-Ray */
+    const struct case_row *dearest; /* the most that a case costs us */
 } totals;
 
-static totals sum_up(const accel_case *rows, size_t count)
+static totals sum_up(const struct case_row *rows, size_t count)
 {
     totals t = {.dearest = rows};
     for (size_t i = 0; i < count; i++) {
-        const accel_case *c = &rows[i];
+        const struct case_row *c = &rows[i];
         t.asked += c->rays * c->forms;
         t.wrong += c->wrong;
         t.cases += c->peers;
@@ -156,12 +156,12 @@ static totals sum_up(const accel_case *rows, size_t count)
     return t;
 }
 
-void accel_cases_page(accel_reporting *r, const accel_case *rows, size_t count)
+void cases_page(struct reporting *r, const struct case_row *rows, size_t count)
 {
     const totals t = sum_up(rows, count);
-    const char *version = accel_povray_version(r);
-    accel_page_title(r, "cases", "Stiff and extreme cases");
-    accel_page_text(
+    const char *version = povray_version(r);
+    page_title(r, "cases", "Stiff and extreme cases");
+    page_text(
         r,
         "Scenes and rays made to break ray tracers; the names G2 to R6 are those of the tests, "
         "which "
@@ -176,16 +176,16 @@ void accel_cases_page(accel_reporting *r, const accel_case *rows, size_t count)
         t.asked, t.wrong, t.fast, t.cases, t.robust,
         version != NULL ? version : "POV-Ray (not installed on this machine)", t.povray,
         t.povray_wrong);
-    accel_page_text(
-        r,
-        "<b>What it costs us:</b> time per ray over that on the generic scene of 1,000 "
-        "triangles with the same mix of rays, the median of our forms, and the worst "
-        "form. <b>Where we lose:</b> the dearest is %s at %.0f times, for "
-        "<code>%s</code>. A dash: not asked, as the scene holds host objects or invalid "
-        "primitives, or is too large for POV-Ray's scene language. What is told in "
-        "italics is from the named source, not measured. The figures of every form: "
-        "<a href=\"%s\">%s</a>.",
-        t.dearest->name, t.dearest->cost_worst, t.dearest->worst, ACCEL_CASES_CSV, ACCEL_CASES_CSV);
+    page_text(r,
+              "<b>What it costs us:</b> time per ray over that on the generic scene of 1,000 "
+              "triangles with the same mix of rays, the median of our forms, and the worst "
+              "form. <b>Where we lose:</b> the dearest is %s at %.0f times, for "
+              "<code>%s</code>. A dash: not asked, as the scene holds host objects or invalid "
+              "primitives, or is too large for POV-Ray's scene language. What is told in "
+              "italics is from the named source, not measured. The figures of every form: "
+              "<a href=\"%s\">%s</a>.",
+              t.dearest->name, t.dearest->cost_worst, t.dearest->worst, ACCEL_CASES_CSV,
+              ACCEL_CASES_CSV);
     fprintf(r->page,
             "<table><tr><th>case</th><th class=\"n\">rays decided<br/>by</th>"
             "<th class=\"n\">Embree fast: wrong</th><th class=\"n\">Embree robust: wrong</th>"

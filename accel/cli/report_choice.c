@@ -67,21 +67,21 @@ static bool has_kind(const char *name)
 }
 
 static void write_row(FILE *csv, const char *scene, const struct panel *p, const char *kind,
-                      int position, const char *value, const accel_run *run)
+                      int position, const char *value, const struct run *run)
 {
     /* a scene's name or a config may hold commas, a CSV without quotes none */
     fprintf(csv, "%s,%s,%s,%s,%d,%s,%s,%zu,%zu,%.3e,%.3e,%.1f,%.6f,%.4f,%.2f,%.2f,%.0f\n", scene,
             p->title, kind, p->option, position, value, run->name, run->rays, run->wrong,
             (double)run->wrong / (double)(run->rays > 0 ? run->rays : 1),
-            accel_report_shown(run->wrong, run->rays), run->ns, run->build,
+            report_shown(run->wrong, run->rays), run->ns, run->build,
             run->build + 1e-9 * MANY_RAYS * run->ns, run->nodes, run->tests, run->bytes);
 }
 
-static bool run_curve(accel_reporting *r, FILE *csv, const accel_ground *g, size_t scene,
+static bool run_curve(struct reporting *r, FILE *csv, const struct ground *g, size_t scene,
                       const struct panel *p, const char *kind, double each, regret *worst)
 {
-    accel_run run;
-    if (!accel_run_config(&run, r, g, kind, each)) {
+    struct run run;
+    if (!run_config(&run, r, g, kind, each)) {
         return false;
     }
     write_row(csv, scenes[scene], p, kind, 0, "auto", &run);
@@ -89,7 +89,7 @@ static bool run_curve(accel_reporting *r, FILE *csv, const accel_ground *g, size
     for (int i = 0; p->values[i] != NULL; i++) {
         char config[80];
         snprintf(config, sizeof config, "%s:%s=%s", kind, p->option, p->values[i]);
-        if (!accel_run_config(&run, r, g, config, each)) {
+        if (!run_config(&run, r, g, config, each)) {
             return false;
         }
         write_row(csv, scenes[scene], p, kind, i + 1, p->values[i], &run);
@@ -102,34 +102,34 @@ static bool run_curve(accel_reporting *r, FILE *csv, const accel_ground *g, size
 }
 
 /* The kind auto, for a line across all panels of a scene. */
-static bool run_auto(accel_reporting *r, FILE *csv, const accel_ground *g, size_t scene,
+static bool run_auto(struct reporting *r, FILE *csv, const struct ground *g, size_t scene,
                      double each)
 {
     static const struct panel all = {.title = "all", .option = "none"};
-    accel_run run;
-    if (!accel_run_config(&run, r, g, "auto", each)) {
+    struct run run;
+    if (!run_config(&run, r, g, "auto", each)) {
         return false;
     }
     write_row(csv, scenes[scene], &all, "auto", 0, "auto", &run);
     return true;
 }
 
-static bool run_scene(accel_reporting *r, FILE *csv, size_t scene, size_t rays, double each,
+static bool run_scene(struct reporting *r, FILE *csv, size_t scene, size_t rays, double each,
                       regret *worst)
 {
-    accel_ground g;
-    if (!accel_ground_make(&g, r, scenes[scene], ACCEL_GROUND_BOUNCES, rays, 0.2)) {
+    struct ground g;
+    if (!ground_make(&g, r, scenes[scene], GROUND_BOUNCES, rays, 0.2)) {
         return false;
     }
     bool fine = run_auto(r, csv, &g, scene, each);
     for (size_t p = 0; fine && p < PANELS; p++) {
-        accel_progress_show(&r->progress, panels[p].title, (double)p / PANELS);
+        progress_show(&r->progress, panels[p].title, (double)p / PANELS);
         for (size_t k = 0; fine && k < MOST_CURVES && panels[p].kinds[k] != NULL; k++) {
             fine = !has_kind(panels[p].kinds[k]) ||
                    run_curve(r, csv, &g, scene, &panels[p], panels[p].kinds[k], each, worst);
         }
     }
-    accel_ground_free(&g);
+    ground_free(&g);
     return fine;
 }
 
@@ -143,7 +143,7 @@ static void draw_curves(FILE *script, const char *scene, const struct panel *p, 
         snprintf(condition, sizeof condition,
                  "strcol(1) eq '%s' && strcol(2) eq '%s' && strcol(3) eq '%s'", scene, p->title,
                  p->kinds[k]);
-        const char *style = accel_plot_style(p->kinds[k]);
+        const char *style = plot_style(p->kinds[k]);
         fprintf(script,
                 "'%s' using (%s && $5 > 0 ? $5 : NaN):%d with linespoints lw 1.3 %s, "
                 "'%s' using (%s && $5 == 0 ? 0 : NaN):%d with points ps 1.3 %s, ",
@@ -199,16 +199,16 @@ static void draw_key(FILE *script)
             "unset logscale\nset xrange [0:1]\nset yrange [0:1]\nset origin 0.05,0\n"
             "set size 0.9,0.08\nset key horizontal Left reverse center center samplen 2\nplot ");
     for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; k++) {
-        fprintf(script, "NaN with linespoints lw 1.3 %s title '%s', ", accel_plot_style(kinds[k]),
+        fprintf(script, "NaN with linespoints lw 1.3 %s title '%s', ", plot_style(kinds[k]),
                 kinds[k]);
     }
     fprintf(script, "NaN with lines lc rgb '#000000' dt 2 title 'kind auto'\nunset multiplot\n");
 }
 
-static bool draw(accel_reporting *r)
+static bool draw(struct reporting *r)
 {
-    accel_plot plot;
-    if (!accel_plot_open(r, &plot, "choice", 980, 780)) {
+    struct plot plot;
+    if (!plot_open(r, &plot, "choice", 980, 780)) {
         return false;
     }
     for (size_t s = 0; s < SCENES; s++) {
@@ -225,35 +225,34 @@ static bool draw(accel_reporting *r)
         }
     }
     draw_key(plot.script);
-    return accel_plot_close(r, &plot);
+    return plot_close(r, &plot);
 }
 
-static bool write_page(accel_reporting *r, size_t rays, const regret *worst)
+static bool write_page(struct reporting *r, size_t rays, const regret *worst)
 {
     char caption[900];
-    accel_page_title(r, "choice", title);
-    accel_page_text(
-        r,
-        "Structures have options, and papers tune them. No option has to be given here: "
-        "at its left each curve begins with what the structure chooses by itself "
-        "(auto); the dashed line is the kind <code>auto</code>, which chooses the "
-        "structure too. Rays: up to %zu diffuse bounces, as in a path tracer.",
-        rays);
+    page_title(r, "choice", title);
+    page_text(r,
+              "Structures have options, and papers tune them. No option has to be given here: "
+              "at its left each curve begins with what the structure chooses by itself "
+              "(auto); the dashed line is the kind <code>auto</code>, which chooses the "
+              "structure too. Rays: up to %zu diffuse bounces, as in a path tracer.",
+              rays);
     snprintf(caption, sizeof caption,
              "Options against time per ray (%s above, %s in the middle) and against the share of "
              "wrong answers (below; an arrow down: none). No option changes an answer. "
              "<b>Where we lose:</b> where an own choice is worst, <code>%s</code> is %.2f times as "
              "fast.",
              titles[0], titles[1], worst->where, worst->worst);
-    return accel_page_plot(r, "choice", csv_name, caption);
+    return page_plot(r, "choice", csv_name, caption);
 }
 
-bool accel_report_choice(accel_reporting *r, double seconds)
+bool report_choice(struct reporting *r, double seconds)
 {
-    if (!accel_report_has_structures(r, "choice", title)) {
+    if (!report_has_structures(r, "choice", title)) {
         return true;
     }
-    FILE *csv = accel_report_csv(r, csv_name, columns);
+    FILE *csv = report_csv(r, csv_name, columns);
     if (csv == NULL) {
         return false;
     }
@@ -269,5 +268,5 @@ bool accel_report_choice(accel_reporting *r, double seconds)
             return false;
         }
     }
-    return accel_report_csv_close(r, csv, csv_name) && draw(r) && write_page(r, rays, &worst);
+    return report_csv_close(r, csv, csv_name) && draw(r) && write_page(r, rays, &worst);
 }

@@ -55,11 +55,11 @@ typedef struct comparison {
 
 /* One scene under way. */
 typedef struct examined {
-    accel_reporting *r;
+    struct reporting *r;
     comparison *all;
     const subject *subject;
-    accel_exam exam;
-    accel_field field;
+    struct exam exam;
+    struct field field;
     FILE *csv;
 } examined;
 
@@ -67,21 +67,21 @@ static void write_row(const examined *x, size_t c, const char *input, size_t dec
 {
     const double ns = x->field.ns[c];
     fprintf(x->csv, "%s,%s,%d,%s,%s,%llu,%zu,%zu,%zu,%.3e,%.3e,%.1f,%.6f,%.4f\n", x->subject->name,
-            x->field.at[c].name, x->field.at[c].peer, input, accel_judge_names[x->exam.judge],
+            x->field.at[c].name, x->field.at[c].peer, input, judge_names[x->exam.judge],
             (unsigned long long)scene_size(x->exam.scene), x->exam.set.count, decided, wrong,
-            decided > 0 ? (double)wrong / (double)decided : 0.0, accel_report_shown(wrong, decided),
-            ns, x->field.at[c].build_seconds, x->field.at[c].build_seconds + 1e-9 * MANY_RAYS * ns);
+            decided > 0 ? (double)wrong / (double)decided : 0.0, report_shown(wrong, decided), ns,
+            x->field.at[c].build_seconds, x->field.at[c].build_seconds + 1e-9 * MANY_RAYS * ns);
 }
 
 static void judge_all(examined *x)
 {
     for (size_t c = 0; c < x->field.count; c++) {
-        const size_t wrong = accel_exam_wrong(&x->exam, &x->field.at[c]);
+        const size_t wrong = exam_wrong(&x->exam, &x->field.at[c]);
         write_row(x, c, "given", x->field.at[c].peer ? x->exam.decided_peer : x->exam.decided,
                   wrong);
         if (x->field.at[c].peer) {
             write_row(x, c, "rounded", x->exam.decided_single,
-                      accel_exam_wrong_single(&x->exam, &x->field.at[c]));
+                      exam_wrong_single(&x->exam, &x->field.at[c]));
         } else {
             x->r->judged += x->exam.set.count;
             x->r->wrong += wrong;
@@ -108,7 +108,7 @@ static void compare_peers(const examined *x)
         const double ns = x->field.ns[c];
         *(x->field.at[c].peer ? &theirs : &ours) = fmin(x->field.at[c].peer ? theirs : ours, ns);
         if (x->field.at[c].peer) {
-            share = fmin(share, (double)accel_exam_wrong(&x->exam, &x->field.at[c]) /
+            share = fmin(share, (double)exam_wrong(&x->exam, &x->field.at[c]) /
                                     fmax(1.0, (double)x->exam.decided_peer));
         }
     }
@@ -119,23 +119,23 @@ static void compare_peers(const examined *x)
     }
 }
 
-static bool run_subject(accel_reporting *r, const subject *s, FILE *csv, double seconds,
+static bool run_subject(struct reporting *r, const subject *s, FILE *csv, double seconds,
                         comparison *all)
 {
     examined x = {.r = r, .subject = s, .csv = csv, .all = all};
-    const accel_exam_subject on = {.maker = s->maker != NULL ? scene_maker_find(s->maker) : NULL,
-                                   .family = s->random ? &random_rays : ray_families,
-                                   .leaks = s->maker == NULL ? &leak_balls[s->leaks] : NULL};
-    bool fine = accel_exam_make(&x.exam, on, seconds, LEAST_RAYS, MOST_RAYS);
+    const struct exam_subject on = {.maker = s->maker != NULL ? scene_maker_find(s->maker) : NULL,
+                                    .family = s->random ? &random_rays : ray_families,
+                                    .leaks = s->maker == NULL ? &leak_balls[s->leaks] : NULL};
+    bool fine = exam_make(&x.exam, on, seconds, LEAST_RAYS, MOST_RAYS);
     if (!fine) {
-        accel_complain(r->command, "no memory for the rays of %s; nothing was written", s->name);
-    } else if ((fine = accel_field_build(&x.field, r, &x.exam))) {
-        accel_field_time(&x.field, &x.exam);
+        complain(r->command, "no memory for the rays of %s; nothing was written", s->name);
+    } else if ((fine = field_build(&x.field, r, &x.exam))) {
+        field_time(&x.field, &x.exam);
         judge_all(&x);
         compare_peers(&x);
     }
-    accel_field_free(&x.field);
-    accel_exam_free(&x.exam);
+    field_free(&x.field);
+    exam_free(&x.exam);
     return fine;
 }
 
@@ -163,7 +163,7 @@ static void draw_element(FILE *script, const char *condition, int x, const char 
 /* The points of one panel; a small triangle below where none is wrong. */
 static void draw_points(FILE *script, const char *scene, int x)
 {
-    const accel_forms forms = accel_forms_of_kinds(NULL);
+    const struct forms forms = forms_of_kinds(NULL);
     fprintf(script,
             "plot '%s' using (strcol(1) eq '%s' && $9 == 0 ? $%d : NaN):(0.45*$11) with points pt "
             "11 ps 0.45 lc rgb '#999999', ",
@@ -178,7 +178,7 @@ static void draw_points(FILE *script, const char *scene, int x)
     for (size_t i = 0; i < forms.count; i++) {
         snprintf(condition, sizeof condition, "strcol(1) eq '%s' && strcol(2) eq '%s'", scene,
                  forms.at[i]);
-        draw_element(script, condition, x, accel_plot_style(forms.at[i]));
+        draw_element(script, condition, x, plot_style(forms.at[i]));
     }
     fprintf(script, "NaN\n");
 }
@@ -186,7 +186,7 @@ static void draw_points(FILE *script, const char *scene, int x)
 /* The names of all contenders, at the bottom. */
 static void draw_key(FILE *script)
 {
-    const accel_forms forms = accel_forms_of_kinds(NULL);
+    const struct forms forms = forms_of_kinds(NULL);
     fprintf(script,
             "unset title\nunset xlabel\nunset ylabel\nunset border\nunset tics\nunset grid\n"
             "unset logscale\nset xrange [0:1]\nset yrange [0:1]\nset origin 0.02,0\n"
@@ -197,17 +197,17 @@ static void draw_key(FILE *script)
                 drawn_peers[i].title);
     }
     for (size_t i = 0; i < forms.count; i++) {
-        fprintf(script, "NaN with points %s title '%s', ", accel_plot_style(forms.at[i]),
-                forms.at[i]);
+        fprintf(script, "NaN with points %s title '%s', ", plot_style(forms.at[i]), forms.at[i]);
     }
     fprintf(script, "NaN with points lc rgb '#999999' pt 11 ps 0.5 title 'none wrong: at 1/N'\n");
 }
 
 /* A panel for each titled scene, three in a row, and the key below. */
-static bool draw(accel_reporting *r, const char *name, int x, const char *xlabel, const char *range)
+static bool draw(struct reporting *r, const char *name, int x, const char *xlabel,
+                 const char *range)
 {
-    accel_plot plot;
-    if (!accel_plot_open(r, &plot, name, 960, 880)) {
+    struct plot plot;
+    if (!plot_open(r, &plot, name, 960, 880)) {
         return false;
     }
     fprintf(plot.script,
@@ -234,14 +234,14 @@ static bool draw(accel_reporting *r, const char *name, int x, const char *xlabel
     }
     draw_key(plot.script);
     fprintf(plot.script, "unset multiplot\n");
-    return accel_plot_close(r, &plot);
+    return plot_close(r, &plot);
 }
 
 /* The share of wrong answers over the distance to the origin. */
-static bool draw_distance(accel_reporting *r)
+static bool draw_distance(struct reporting *r)
 {
-    accel_plot plot;
-    if (!accel_plot_open(r, &plot, "exact-far", 760, 380)) {
+    struct plot plot;
+    if (!plot_open(r, &plot, "exact-far", 760, 380)) {
         return false;
     }
     fprintf(plot.script,
@@ -268,14 +268,14 @@ static bool draw_distance(accel_reporting *r)
     }
     fprintf(plot.script,
             "'%s' using (strcol(2) eq 'hoo' ? d(strcol(1)) : NaN):11 with points ps 1 %s\n",
-            csv_name, accel_plot_style("hoo"));
-    return accel_plot_close(r, &plot);
+            csv_name, plot_style("hoo"));
+    return plot_close(r, &plot);
 }
 
-static bool write_page(accel_reporting *r, const comparison *all)
+static bool write_page(struct reporting *r, const comparison *all)
 {
-    accel_page_title(r, "exact", "Exact answers: what is wrong, against time per ray");
-    accel_page_text(
+    page_title(r, "exact", "Exact answers: what is wrong, against time per ray");
+    page_text(
         r,
         "Every point is one structure on one scene. A wrong answer names another object than the "
         "right one, or none, or misses a place that it must hit; what is right is computed in "
@@ -300,34 +300,33 @@ static bool write_page(accel_reporting *r, const comparison *all)
              "below: read "
              "“&lt; 1/N”. <b>Where we lose:</b> %s",
              peer);
-    return accel_page_plot(r, "exact", csv_name, caption) &&
-           accel_page_plot(r, "exact-build", csv_name,
-                           "The same with the build: seconds for the build and a million rays. "
-                           "<b>Where we lose:</b> the same factor; builds of scenes this small do "
-                           "not count.") &&
-           accel_page_plot(r, "exact-far", csv_name,
-                           "The same 300 triangles, moved away from the origin: distance against "
-                           "the share of wrong answers. Single precision has 24 bits: from 10<sup>7"
-                           "</sup> on nothing is left of the scene. Ours keeps its promise in what "
-                           "double has left.");
+    return page_plot(r, "exact", csv_name, caption) &&
+           page_plot(r, "exact-build", csv_name,
+                     "The same with the build: seconds for the build and a million rays. "
+                     "<b>Where we lose:</b> the same factor; builds of scenes this small do "
+                     "not count.") &&
+           page_plot(r, "exact-far", csv_name,
+                     "The same 300 triangles, moved away from the origin: distance against "
+                     "the share of wrong answers. Single precision has 24 bits: from 10<sup>7"
+                     "</sup> on nothing is left of the scene. Ours keeps its promise in what "
+                     "double has left.");
 }
 
-bool accel_report_exact(accel_reporting *r, double seconds)
+bool report_exact(struct reporting *r, double seconds)
 {
-    FILE *csv = accel_report_csv(r, csv_name, columns);
+    FILE *csv = report_csv(r, csv_name, columns);
     if (csv == NULL) {
         return false;
     }
     comparison all = {.scenes = 0};
     for (size_t i = 0; i < SUBJECTS; i++) {
-        accel_progress_show(&r->progress, subjects[i].name, (double)i / SUBJECTS);
+        progress_show(&r->progress, subjects[i].name, (double)i / SUBJECTS);
         if (!run_subject(r, &subjects[i], csv, seconds / SUBJECTS, &all)) {
             fclose(csv);
             return false;
         }
     }
-    return accel_report_csv_close(r, csv, csv_name) &&
-           draw(r, "exact", 12, "ns per ray", "[20:1e5]") &&
+    return report_csv_close(r, csv, csv_name) && draw(r, "exact", 12, "ns per ray", "[20:1e5]") &&
            draw(r, "exact-build", 14, "seconds, build and 10⁶ rays", "[0.02:100]") &&
            draw_distance(r) && write_page(r, &all);
 }

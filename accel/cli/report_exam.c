@@ -13,16 +13,16 @@
 /* Rays whose time tells that of the others; fewer where one takes long. */
 enum { PILOT = 24, SHORT_PILOT = 3, LARGE_SCENE = 10000 };
 
-const char *const accel_judge_names[] = {"113 bits", "closedness", "linear", "integers"};
+const char *const judge_names[] = {"113 bits", "closedness", "linear", "integers"};
 
 /* ------------------------------------------------------------ scene and rays ---- */
 
-static uint64_t seed_of(const accel_exam_subject *subject)
+static uint64_t seed_of(const struct exam_subject *subject)
 {
     return subject->seed == 0 ? 1 : subject->seed;
 }
 
-static void make_scene_of(const accel_exam_subject *subject, struct test_scene *s)
+static void make_scene_of(const struct exam_subject *subject, struct test_scene *s)
 {
     if (subject->leaks != NULL) {
         leak_make(s, subject->leaks, seed_of(subject));
@@ -35,15 +35,15 @@ static void make_scene_of(const accel_exam_subject *subject, struct test_scene *
 
 /* A ray along an integer line, and the first that it hits; its `under` is 0 where it hits nothing.
  * Scenes are those in which no line hits more than ALL. */
-static accel_ray integer_ray(const struct test_scene *s, struct dice *d, accel_first *first)
+static accel_ray integer_ray(const struct test_scene *s, struct dice *d, struct first *first)
 {
     enum { ALL = 300 };
     struct crossing all[ALL];
     struct line line;
     const accel_ray ray = lattice_line(s, d, &line);
     const uint32_t count = lattice_crossings(s, &line, false, all, ALL);
-    *first = (accel_first){.tie_count = 0};
-    for (uint32_t i = 0; i < count && first->tie_count < ACCEL_MOST_TIES; i++) {
+    *first = (struct first){.tie_count = 0};
+    for (uint32_t i = 0; i < count && first->tie_count < MOST_TIES; i++) {
         if ((__int128)all[i].over * all[0].under == (__int128)all[0].over * all[i].under) {
             first->crossing = all[0];
             first->ties[first->tie_count++] = (accel_id){all[i].geom, all[i].prim};
@@ -53,10 +53,10 @@ static accel_ray integer_ray(const struct test_scene *s, struct dice *d, accel_f
 }
 
 /* One ray: t is a whole number of eighths. A peer may name any of the triangles where it is hit. */
-static void make_known(accel_exam *e, const struct known *c)
+static void make_known(struct exam *e, const struct known *c)
 {
-    accel_first *first = &e->exact[0];
-    *first = (accel_first){.tie_count = c->hit ? c->triangles : 0};
+    struct first *first = &e->exact[0];
+    *first = (struct first){.tie_count = c->hit ? c->triangles : 0};
     if (c->hit) {
         first->crossing =
             (struct crossing){.over = (int64_t)(8.0 * c->t), .under = 4, .prim = c->prim};
@@ -68,7 +68,7 @@ static void make_known(accel_exam *e, const struct known *c)
     e->set.count = 1;
 }
 
-static void make_rays(accel_exam *e, const accel_exam_subject *subject, size_t count)
+static void make_rays(struct exam *e, const struct exam_subject *subject, size_t count)
 {
     struct dice d = dice_from(seed_of(subject), 2);
     e->set.count = 0;
@@ -143,7 +143,7 @@ static struct judgement *judge_all(const struct test_scene *scene, const accel_r
     judging j = {.scene = scene, .rays = rays, .count = count};
     j.out = malloc((count + 1) * sizeof *j.out);
     if (j.out != NULL) {
-        accel_crew(accel_crew_size(), judge_some, &j);
+        crew(crew_size(), judge_some, &j);
     }
     return j.out;
 }
@@ -177,7 +177,7 @@ static void round_scene(struct test_scene *s)
 }
 
 /* What peers are given: the oracle's word on scene and rays in single precision. */
-static bool judge_single(accel_exam *e, const accel_exam_subject *subject)
+static bool judge_single(struct exam *e, const struct exam_subject *subject)
 {
     struct test_scene *rounded = malloc(sizeof *rounded);
     accel_ray *rays = malloc((e->set.count + 1) * sizeof *rays);
@@ -196,25 +196,25 @@ static bool judge_single(accel_exam *e, const accel_exam_subject *subject)
 }
 
 /* Of all rays, or of those that a peer can be asked. */
-static size_t count_decided(const accel_exam *e, const struct judgement *j, bool peer)
+static size_t count_decided(const struct exam *e, const struct judgement *j, bool peer)
 {
     size_t decided = 0;
     for (size_t i = 0; i < e->set.count; i++) {
-        decided += (j == NULL || j[i].verdict != UNDECIDED) &&
-                   (!peer || accel_peer_asked(&e->set.rays[i]));
+        decided +=
+            (j == NULL || j[i].verdict != UNDECIDED) && (!peer || peer_asked(&e->set.rays[i]));
     }
     return decided;
 }
 
-static bool make_peer_set(accel_exam *e)
+static bool make_peer_set(struct exam *e)
 {
     e->peer_set =
-        (accel_ray_set){.name = "peers", .rays = malloc((e->set.count + 1) * sizeof(accel_ray))};
+        (struct ray_set){.name = "peers", .rays = malloc((e->set.count + 1) * sizeof(accel_ray))};
     if (e->peer_set.rays == NULL) {
         return false;
     }
     for (size_t i = 0; i < e->set.count; i++) {
-        if (accel_peer_reaches(&e->set.rays[i]) && accel_peer_asked(&e->set.rays[i])) {
+        if (peer_reaches(&e->set.rays[i]) && peer_asked(&e->set.rays[i])) {
             e->peer_set.rays[e->peer_set.count++] = e->set.rays[i];
         }
     }
@@ -223,7 +223,7 @@ static bool make_peer_set(accel_exam *e)
 
 /* Rays at which a host object reports a hit before its box are left out: the header exempts
  * them. */
-static void ask_linear(accel_exam *e)
+static void ask_linear(struct exam *e)
 {
     size_t kept = 0;
     for (size_t i = 0; i < e->set.count; i++) {
@@ -240,13 +240,13 @@ static void ask_linear(accel_exam *e)
     e->set.count = kept;
 }
 
-static bool judge_rays(accel_exam *e, const accel_exam_subject *subject)
+static bool judge_rays(struct exam *e, const struct exam_subject *subject)
 {
     ask_linear(e);
     if (e->peers && !make_peer_set(e)) {
         return false;
     }
-    if (e->judge == ACCEL_BY_ORACLE) {
+    if (e->judge == BY_ORACLE) {
         e->right = judge_all(e->scene, e->set.rays, e->set.count);
         if (e->right == NULL || (e->peers && !judge_single(e, subject))) {
             return false;
@@ -264,32 +264,32 @@ static bool judge_rays(accel_exam *e, const accel_exam_subject *subject)
 #define OTHERS_SECONDS 1.2e-4
 
 /* Rays that about fit into the time, from the time of the first few. */
-static size_t choose_count(const accel_exam *e, double seconds, size_t least, size_t most)
+static size_t choose_count(const struct exam *e, double seconds, size_t least, size_t most)
 {
-    double start = accel_seconds();
-    if (e->judge == ACCEL_BY_ORACLE) {
+    double start = seconds_now();
+    if (e->judge == BY_ORACLE) {
         free(judge_all(e->scene, e->set.rays, e->set.count));
     }
-    const double judged = accel_seconds() - start;
+    const double judged = seconds_now() - start;
     accel_hit hit;
-    start = accel_seconds();
+    start = seconds_now();
     for (size_t i = 0; i < e->set.count; i++) {
         accel_closest(e->linear, &e->set.rays[i], &hit, NULL);
     }
-    const double asked = accel_seconds() - start;
+    const double asked = seconds_now() - start;
     const double each = (2.0 * judged + LINEAR_PASSES * asked) / (double)(e->set.count + 1);
     const double fits = seconds / (each + OTHERS_SECONDS);
     return fits > (double)most ? most : fits < (double)least ? least : (size_t)fits;
 }
 
-bool accel_exam_make(accel_exam *e, accel_exam_subject subject, double seconds, size_t least,
-                     size_t most)
+bool exam_make(struct exam *e, struct exam_subject subject, double seconds, size_t least,
+               size_t most)
 {
     accel_error error;
-    *e = (accel_exam){.scene = malloc(sizeof *e->scene)};
-    e->set = (accel_ray_set){.name = "catalogue",
-                             .rays = malloc((most + PILOT) * sizeof(accel_ray)),
-                             .hits = malloc((most + PILOT) * sizeof(accel_hit))};
+    *e = (struct exam){.scene = malloc(sizeof *e->scene)};
+    e->set = (struct ray_set){.name = "catalogue",
+                              .rays = malloc((most + PILOT) * sizeof(accel_ray)),
+                              .hits = malloc((most + PILOT) * sizeof(accel_hit))};
     e->exact = malloc((most + PILOT) * sizeof *e->exact);
     if (e->scene == NULL || e->set.rays == NULL || e->set.hits == NULL || e->exact == NULL) {
         free(e->scene);
@@ -298,14 +298,14 @@ bool accel_exam_make(accel_exam *e, accel_exam_subject subject, double seconds, 
     }
     make_scene_of(&subject, e->scene);
     e->peers = suits_peers(e->scene);
-    e->judge = subject.leaks != NULL                       ? ACCEL_BY_HIT
-               : subject.integers || subject.known != NULL ? ACCEL_BY_INTEGERS
-                                                           : ACCEL_BY_ORACLE;
+    e->judge = subject.leaks != NULL                       ? BY_HIT
+               : subject.integers || subject.known != NULL ? BY_INTEGERS
+                                                           : BY_ORACLE;
     if (accel_build(&e->linear, &e->scene->scene, "linear", NULL, &error) != ACCEL_OK) {
         return false;
     }
-    if (e->judge == ACCEL_BY_ORACLE && !suits_oracle(e->scene, e->linear)) {
-        e->judge = ACCEL_BY_LINEAR;
+    if (e->judge == BY_ORACLE && !suits_oracle(e->scene, e->linear)) {
+        e->judge = BY_LINEAR;
         e->peers = false;
     }
     make_rays(e, &subject, scene_size(e->scene) > LARGE_SCENE ? SHORT_PILOT : PILOT);
@@ -313,7 +313,7 @@ bool accel_exam_make(accel_exam *e, accel_exam_subject subject, double seconds, 
     return judge_rays(e, &subject);
 }
 
-void accel_exam_free(accel_exam *e)
+void exam_free(struct exam *e)
 {
     accel_free(e->linear);
     if (e->scene != NULL) {
@@ -323,6 +323,6 @@ void accel_exam_free(accel_exam *e)
     free(e->right);
     free(e->single);
     free(e->exact);
-    accel_free_set(&e->set);
-    accel_free_set(&e->peer_set);
+    free_set(&e->set);
+    free_set(&e->peer_set);
 }

@@ -18,54 +18,54 @@ static double length_of(const struct test_scene *s)
     return sqrt(square);
 }
 
-bool accel_field_build(accel_field *field, accel_reporting *r, const accel_exam *exam)
+bool field_build(struct field *field, struct reporting *r, const struct exam *exam)
 {
-    const accel_forms forms = accel_forms_of_kinds(NULL);
+    const struct forms forms = forms_of_kinds(NULL);
     field->count = 0;
     for (size_t i = 0; i < forms.count; i++) {
-        accel *a = accel_report_build(r, &exam->scene->scene, forms.at[i]);
+        accel *a = report_build(r, &exam->scene->scene, forms.at[i]);
         if (a == NULL) {
             return false;
         }
-        field->at[field->count] = accel_exam_ours(a, forms.at[i]);
+        field->at[field->count] = exam_ours(a, forms.at[i]);
         field->at[field->count++].build_seconds = r->built;
     }
     if (exam->peers) {
-        field->count += accel_bench_peers(field->at + field->count, &exam->scene->scene,
-                                          length_of(exam->scene));
+        field->count +=
+            bench_peers(field->at + field->count, &exam->scene->scene, length_of(exam->scene));
     }
     return true;
 }
 
 /* Nanoseconds of a ray; few rays are traced again and again. */
-static double time_rays(const accel_contender *c, const accel_ray_set *set)
+static double time_rays(const struct bench_contender *c, const struct ray_set *set)
 {
     const size_t count = set->count > 0 ? set->count : 1;
     const size_t passes = (FEWEST_TIMED + count - 1) / count;
-    const double start = accel_machine_seconds();
+    const double start = machine_seconds();
     for (size_t i = 0; i < passes; i++) {
         c->trace(c, set);
     }
-    return 1e9 * (accel_machine_seconds() - start) / (double)(passes * count);
+    return 1e9 * (machine_seconds() - start) / (double)(passes * count);
 }
 
-void accel_field_time(accel_field *field, const accel_exam *exam)
+void field_time(struct field *field, const struct exam *exam)
 {
-    double ns[ACCEL_MOST_FORMS + ACCEL_MOST_PEERS][TURNS];
+    double ns[MOST_FORMS + MOST_PEERS][TURNS];
     for (int turn = 0; turn < TURNS; turn++) {
         for (size_t c = 0; c < field->count; c++) {
-            accel_ray_set set = field->at[c].peer ? exam->peer_set : exam->set;
+            struct ray_set set = field->at[c].peer ? exam->peer_set : exam->set;
             set.count = set.count < TIMED_RAYS ? set.count : TIMED_RAYS;
             ns[c][turn] = time_rays(&field->at[c], &set);
         }
     }
     for (size_t c = 0; c < field->count; c++) {
-        accel_sort_values(ns[c], TURNS);
+        sort_values(ns[c], TURNS);
         field->ns[c] = ns[c][TURNS / 2];
     }
 }
 
-void accel_field_free(accel_field *field)
+void field_free(struct field *field)
 {
     for (size_t c = 0; c < field->count; c++) {
         field->at[c].end(&field->at[c]);

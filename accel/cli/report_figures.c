@@ -9,7 +9,7 @@
 #include <errno.h>
 #include <string.h>
 
-bool accel_report_has_structures(accel_reporting *r, const char *id, const char *title)
+bool report_has_structures(struct reporting *r, const char *id, const char *title)
 {
     size_t kinds;
     const accel_kind_info *const *kind = accel_kinds(&kinds);
@@ -18,51 +18,50 @@ bool accel_report_has_structures(accel_reporting *r, const char *id, const char 
             return true;
         }
     }
-    accel_page_title(r, id, title);
-    accel_page_text(r, "This build has no structure but linear search.");
+    page_title(r, id, title);
+    page_text(r, "This build has no structure but linear search.");
     return false;
 }
 
-FILE *accel_report_csv(accel_reporting *r, const char *name, const char *columns)
+FILE *report_csv(struct reporting *r, const char *name, const char *columns)
 {
-    FILE *csv = accel_folder_write(&r->folder, name);
+    FILE *csv = folder_write(&r->folder, name);
     if (csv == NULL) {
-        accel_complain(r->command, "cannot write %s: %s; nothing was written", name,
-                       strerror(errno));
+        complain(r->command, "cannot write %s: %s; nothing was written", name, strerror(errno));
         return NULL;
     }
     fprintf(csv, "%s\n", columns);
     return csv;
 }
 
-bool accel_report_csv_close(accel_reporting *r, FILE *csv, const char *name)
+bool report_csv_close(struct reporting *r, FILE *csv, const char *name)
 {
-    const char *trouble = accel_folder_close(&r->folder, csv);
+    const char *trouble = folder_close(&r->folder, csv);
     if (trouble != NULL) {
-        accel_complain(r->command, "cannot write %s: %s; nothing was written", name, trouble);
+        complain(r->command, "cannot write %s: %s; nothing was written", name, trouble);
     }
     return trouble == NULL;
 }
 
-double accel_report_shown(size_t wrong, size_t n)
+double report_shown(size_t wrong, size_t n)
 {
     return (wrong > 0 ? (double)wrong : 1.0) / (double)(n > 0 ? n : 1);
 }
 
-accel *accel_report_build(accel_reporting *r, const accel_scene *scene, const char *config)
+accel *report_build(struct reporting *r, const accel_scene *scene, const char *config)
 {
     accel *a;
     accel_error error;
-    const accel_hooks hooks = {.user = &r->progress, .progress = accel_progress_build};
+    const accel_hooks hooks = {.user = &r->progress, .progress = progress_build};
     const char *what = r->progress.what;
     r->progress.what = config;
-    const double start = accel_machine_seconds();
+    const double start = machine_seconds();
     const accel_status status = accel_build(&a, scene, config, &hooks, &error);
-    r->built = accel_machine_seconds() - start;
+    r->built = machine_seconds() - start;
     r->progress.what = what;
     if (status == ACCEL_OK) {
         return a;
     }
-    accel_complain(r->command, "%s; nothing was written", error.text);
+    complain(r->command, "%s; nothing was written", error.text);
     return NULL;
 }

@@ -24,7 +24,7 @@ static const char page[] = "index.html";
 
 enum { MOST_TEXT = 200 };
 
-static bool fail(const accel_folder *folder, const char *trouble, const char *state,
+static bool fail(const struct folder *folder, const char *trouble, const char *state,
                  accel_error *error)
 {
     error->status = ACCEL_BAD_ARGUMENT;
@@ -34,10 +34,9 @@ static bool fail(const accel_folder *folder, const char *trouble, const char *st
 }
 
 /* Names a file in a folder. False: too long, and errno says so. */
-static bool join(char path[ACCEL_MOST_PATH], const char *folder, const char *name)
+static bool join(char path[MOST_PATH], const char *folder, const char *name)
 {
-    const bool fits =
-        (size_t)snprintf(path, ACCEL_MOST_PATH, "%s/%s", folder, name) < ACCEL_MOST_PATH;
+    const bool fits = (size_t)snprintf(path, MOST_PATH, "%s/%s", folder, name) < MOST_PATH;
     if (!fits) {
         errno = ENAMETOOLONG;
     }
@@ -50,7 +49,7 @@ static bool join(char path[ACCEL_MOST_PATH], const char *folder, const char *nam
  * freed. */
 static char *former_files(const char *path)
 {
-    char name[ACCEL_MOST_PATH], *line = NULL, *found = NULL;
+    char name[MOST_PATH], *line = NULL, *found = NULL;
     FILE *file = join(name, path, page) ? fopen(name, "re") : NULL;
     if (file == NULL) {
         return NULL;
@@ -104,9 +103,9 @@ static const char *why_not(const char *path, const char *own, char text[MOST_TEX
 
 /* ------------------------------------------------------------------------- open ---- */
 
-static const char *find_place(accel_folder *folder, char text[MOST_TEXT])
+static const char *find_place(struct folder *folder, char text[MOST_TEXT])
 {
-    char path[ACCEL_MOST_PATH];
+    char path[MOST_PATH];
     size_t length = strlen(folder->name);
     while (length > 1 && folder->name[length - 1] == '/') {
         length--;
@@ -119,31 +118,31 @@ static const char *find_place(accel_folder *folder, char text[MOST_TEXT])
     if (strcmp(path, "-") == 0 || (stat(path, &status) == 0 && !S_ISDIR(status.st_mode))) {
         return "it is a file, not a folder";
     }
-    const char *trouble = accel_place_find(&folder->place, path);
-    if (trouble == NULL && folder->place.kind == ACCEL_PLACE_FOLDER) {
+    const char *trouble = place_find(&folder->place, path);
+    if (trouble == NULL && folder->place.kind == PLACE_FOLDER) {
         trouble = why_not(folder->place.path, "", text);
     }
     return trouble;
 }
 
 /* Signals wait, so that none comes between the folder and its watch. */
-static const char *make_temporary(accel_folder *folder)
+static const char *make_temporary(struct folder *folder)
 {
     sigset_t before;
-    accel_signals_hold(&before);
-    const bool made = accel_place_make(&folder->place, true, folder->temporary) == 0;
+    signals_hold(&before);
+    const bool made = place_make(&folder->place, true, folder->temporary) == 0;
     const char *trouble = made ? NULL : strerror(errno);
     if (made) {
-        accel_unfinished_start(folder->temporary, true);
+        unfinished_start(folder->temporary, true);
     }
-    accel_signals_go_on(&before);
+    signals_go_on(&before);
     return trouble;
 }
 
-bool accel_folder_open(accel_folder *folder, const char *path, accel_error *error)
+bool folder_open(struct folder *folder, const char *path, accel_error *error)
 {
     char text[MOST_TEXT];
-    *folder = (accel_folder){.name = path};
+    *folder = (struct folder){.name = path};
     const char *trouble = find_place(folder, text);
     trouble = trouble == NULL ? make_temporary(folder) : trouble;
     return trouble == NULL || fail(folder, trouble, "nothing was written", error);
@@ -151,55 +150,55 @@ bool accel_folder_open(accel_folder *folder, const char *path, accel_error *erro
 
 /* ------------------------------------------------------------------------ files ---- */
 
-FILE *accel_folder_write(accel_folder *folder, const char *name)
+FILE *folder_write(struct folder *folder, const char *name)
 {
-    char path[ACCEL_MOST_PATH];
+    char path[MOST_PATH];
     if (!join(path, folder->temporary, name)) {
         return NULL;
     }
-    if (!accel_unfinished_name(name)) {
+    if (!unfinished_name(name)) {
         errno = EMFILE;
         return NULL;
     }
     const int descriptor = open(path, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-    FILE *file = descriptor < 0 ? NULL : accel_sink_open(descriptor, &folder->trouble);
+    FILE *file = descriptor < 0 ? NULL : sink_open(descriptor, &folder->trouble);
     if (file == NULL && descriptor >= 0) {
         close(descriptor);
     }
     return file;
 }
 
-FILE *accel_folder_read(accel_folder *folder, const char *name)
+FILE *folder_read(struct folder *folder, const char *name)
 {
-    char path[ACCEL_MOST_PATH];
+    char path[MOST_PATH];
     return join(path, folder->temporary, name) ? fopen(path, "re") : NULL;
 }
 
-const char *accel_folder_close(accel_folder *folder, FILE *file)
+const char *folder_close(struct folder *folder, FILE *file)
 {
-    return accel_sink_close(file, &folder->trouble) ? NULL : strerror(folder->trouble);
+    return sink_close(file, &folder->trouble) ? NULL : strerror(folder->trouble);
 }
 
-void accel_folder_remove(accel_folder *folder, const char *name)
+void folder_remove(struct folder *folder, const char *name)
 {
-    char path[ACCEL_MOST_PATH];
+    char path[MOST_PATH];
     if (join(path, folder->temporary, name)) {
         unlink(path);
     }
 }
 
-static bool is_there(const accel_folder *folder, const char *name)
+static bool is_there(const struct folder *folder, const char *name)
 {
-    char path[ACCEL_MOST_PATH];
+    char path[MOST_PATH];
     return join(path, folder->temporary, name) && access(path, F_OK) == 0;
 }
 
-void accel_folder_list(const accel_folder *folder, FILE *to)
+void folder_list(const struct folder *folder, FILE *to)
 {
     fputs(list, to);
-    for (int i = 0; accel_unfinished_file(i) != NULL; i++) {
-        if (is_there(folder, accel_unfinished_file(i))) {
-            fprintf(to, "%s ", accel_unfinished_file(i));
+    for (int i = 0; unfinished_file(i) != NULL; i++) {
+        if (is_there(folder, unfinished_file(i))) {
+            fprintf(to, "%s ", unfinished_file(i));
         }
     }
     fputs("-->\n", to);
@@ -208,13 +207,13 @@ void accel_folder_list(const accel_folder *folder, FILE *to)
 /* ----------------------------------------------------------------------- commit ---- */
 
 /* Is all of it on disk? */
-static bool synchronise(const accel_folder *folder)
+static bool synchronise(const struct folder *folder)
 {
     bool fine = true;
-    for (int i = 0; fine && accel_unfinished_file(i) != NULL; i++) {
-        char path[ACCEL_MOST_PATH];
-        if (is_there(folder, accel_unfinished_file(i))) {
-            const int file = join(path, folder->temporary, accel_unfinished_file(i))
+    for (int i = 0; fine && unfinished_file(i) != NULL; i++) {
+        char path[MOST_PATH];
+        if (is_there(folder, unfinished_file(i))) {
+            const int file = join(path, folder->temporary, unfinished_file(i))
                                  ? open(path, O_WRONLY | O_CLOEXEC)
                                  : -1;
             fine = file >= 0 && (fsync(file) == 0 || errno == EINVAL);
@@ -225,9 +224,9 @@ static bool synchronise(const accel_folder *folder)
 }
 
 /* Moves one file in, with mode and owner of the one that it replaces. */
-static bool move_in(const accel_folder *folder, const char *name)
+static bool move_in(const struct folder *folder, const char *name)
 {
-    char from[ACCEL_MOST_PATH], to[ACCEL_MOST_PATH];
+    char from[MOST_PATH], to[MOST_PATH];
     struct stat old;
     if (!join(from, folder->temporary, name) || !join(to, folder->place.path, name)) {
         return false;
@@ -235,7 +234,7 @@ static bool move_in(const accel_folder *folder, const char *name)
     if (lstat(to, &old) == 0) {
         const int file = open(from, O_WRONLY | O_CLOEXEC);
         if (file >= 0) {
-            accel_place_dress(file, to, &old);
+            place_dress(file, to, &old);
             close(file);
         }
     }
@@ -243,11 +242,11 @@ static bool move_in(const accel_folder *folder, const char *name)
 }
 
 /* The page last. False: errno says why, and only *moved of them are in. */
-static bool move_all_in(const accel_folder *folder, int *moved)
+static bool move_all_in(const struct folder *folder, int *moved)
 {
     *moved = 0;
-    for (int i = 0; accel_unfinished_file(i) != NULL; i++) {
-        const char *name = accel_unfinished_file(i);
+    for (int i = 0; unfinished_file(i) != NULL; i++) {
+        const char *name = unfinished_file(i);
         if (strcmp(name, page) != 0 && is_there(folder, name)) {
             if (!move_in(folder, name)) {
                 return false;
@@ -259,13 +258,13 @@ static bool move_all_in(const accel_folder *folder, int *moved)
 }
 
 /* Removes what the former report had and this one has not. */
-static void remove_former(const accel_folder *folder, const char *former)
+static void remove_former(const struct folder *folder, const char *former)
 {
     DIR *at = opendir(folder->place.path);
     for (const struct dirent *e = at == NULL ? NULL : readdir(at); e != NULL; e = readdir(at)) {
         bool is_new = false;
-        for (int i = 0; accel_unfinished_file(i) != NULL; i++) {
-            is_new = is_new || strcmp(accel_unfinished_file(i), e->d_name) == 0;
+        for (int i = 0; unfinished_file(i) != NULL; i++) {
+            is_new = is_new || strcmp(unfinished_file(i), e->d_name) == 0;
         }
         if (!is_new && is_former(former, dirfd(at), e->d_name)) {
             unlinkat(dirfd(at), e->d_name, 0);
@@ -277,7 +276,7 @@ static void remove_former(const accel_folder *folder, const char *former)
 }
 
 /* Into the folder that is there. */
-static bool replace(const accel_folder *folder, accel_error *error)
+static bool replace(const struct folder *folder, accel_error *error)
 {
     char text[MOST_TEXT];
     const char *own = strrchr(folder->temporary, '/');
@@ -298,7 +297,7 @@ static bool replace(const accel_folder *folder, accel_error *error)
     return fine;
 }
 
-static bool place(const accel_folder *folder, accel_error *error)
+static bool place(const struct folder *folder, accel_error *error)
 {
     struct stat status;
     if (lstat(folder->place.path, &status) == 0) {
@@ -307,27 +306,27 @@ static bool place(const accel_folder *folder, accel_error *error)
     if (rename(folder->temporary, folder->place.path) != 0) {
         return fail(folder, strerror(errno), "nothing was written", error);
     }
-    accel_unfinished_done();
+    unfinished_done();
     return true;
 }
 
-bool accel_folder_commit(accel_folder *folder, accel_error *error)
+bool folder_commit(struct folder *folder, accel_error *error)
 {
     sigset_t before;
     if (!synchronise(folder)) {
         fail(folder, strerror(errno), "nothing was written", error);
-        accel_folder_abandon(folder);
+        folder_abandon(folder);
         return false;
     }
-    accel_signals_hold(&before);
+    signals_hold(&before);
     const bool fine = place(folder, error);
-    accel_folder_abandon(folder);
-    accel_signals_go_on(&before);
+    folder_abandon(folder);
+    signals_go_on(&before);
     return fine;
 }
 
-void accel_folder_abandon(accel_folder *folder)
+void folder_abandon(struct folder *folder)
 {
-    accel_unfinished_remove();
+    unfinished_remove();
     folder->temporary[0] = '\0';
 }

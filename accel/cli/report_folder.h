@@ -22,34 +22,34 @@
 #include <stdio.h>
 
 /* A folder under way. One at a time in a process; not to be moved in memory. */
-typedef struct accel_folder {
-    const char *name;                /* as the user calls it */
-    accel_place place;               /* where it goes in the end */
-    char temporary[ACCEL_MOST_PATH]; /* where it is made; empty: nowhere */
-    int trouble;                     /* errno of the first write that failed, or 0 */
-} accel_folder;
+struct folder {
+    const char *name;          /* as the user calls it */
+    struct place place;        /* where it goes in the end */
+    char temporary[MOST_PATH]; /* where it is made; empty: nowhere */
+    int trouble;               /* errno of the first write that failed, or 0 */
+};
 
 /* Makes it, before anything long is computed. A folder that is there already must be empty or hold
  * a former report and nothing else. Otherwise fills error->text. */
-bool accel_folder_open(accel_folder *folder, const char *path, accel_error *error);
+bool folder_open(struct folder *folder, const char *path, accel_error *error);
 
 /* Opens a file in it to write, or to read back; NULL where that fails, see errno. */
-FILE *accel_folder_write(accel_folder *folder, const char *name);
-FILE *accel_folder_read(accel_folder *folder, const char *name);
+FILE *folder_write(struct folder *folder, const char *name);
+FILE *folder_read(struct folder *folder, const char *name);
 
 /* Closes a file that was written. Returns NULL, or why not all of it has arrived. */
-const char *accel_folder_close(accel_folder *folder, FILE *file);
+const char *folder_close(struct folder *folder, FILE *file);
 
 /* Writes a line that names all files so far: what a later report may remove. */
-void accel_folder_list(const accel_folder *folder, FILE *page);
+void folder_list(const struct folder *folder, FILE *page);
 
 /* Removes one file of it. */
-void accel_folder_remove(accel_folder *folder, const char *name);
+void folder_remove(struct folder *folder, const char *name);
 
 /* Moves it into place, or removes it and fills error->text. */
-bool accel_folder_commit(accel_folder *folder, accel_error *error);
+bool folder_commit(struct folder *folder, accel_error *error);
 
 /* Removes it. */
-void accel_folder_abandon(accel_folder *folder);
+void folder_abandon(struct folder *folder);
 
 #endif

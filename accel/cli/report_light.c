@@ -39,13 +39,13 @@ typedef struct timed {
 
 /* One scene under way. */
 typedef struct study {
-    accel_reporting *r;
-    accel_light_scene s;
+    struct reporting *r;
+    struct light_scene s;
     FILE *csv;
-    uint64_t hash;                             /* of the photons of the first seed */
-    double sum[ESTIMATES][ACCEL_RECEIVERS];    /* over seeds, of the error */
-    double square[ESTIMATES][ACCEL_RECEIVERS]; /* of its square */
-    accel_light_row rows[ESTIMATES];           /* of the present number of photons */
+    uint64_t hash;                       /* of the photons of the first seed */
+    double sum[ESTIMATES][RECEIVERS];    /* over seeds, of the error */
+    double square[ESTIMATES][RECEIVERS]; /* of its square */
+    struct light_row rows[ESTIMATES];    /* of the present number of photons */
     timed at[MOST_KINDS];
     size_t count;             /* of them */
     size_t best;              /* the fastest of the largest run, by paths in the middle radius */
@@ -55,43 +55,42 @@ typedef struct study {
 
 /* ---------------------------------------------------------------- estimates ---- */
 
-/* Estimates 0 .. ACCEL_RADII - 1 are by paths, the last by the nearest photons within the middle
+/* Estimates 0 .. RADII - 1 are by paths, the last by the nearest photons within the middle
  * radius. */
-static bool estimate(study *y, const accel_photons *photons, int which, const char *config,
+static bool estimate(study *y, const struct photons *photons, int which, const char *config,
                      double *out)
 {
-    const accel_receivers receivers = {y->s.receivers, y->s.count};
-    if (which == ACCEL_RADII) {
-        return accel_irradiance_nearest(photons, &y->s.run, receivers, y->s.radius[1], NEAREST,
-                                        out);
+    const struct receivers receivers = {y->s.receivers, y->s.count};
+    if (which == RADII) {
+        return irradiance_nearest(photons, &y->s.run, receivers, y->s.radius[1], NEAREST, out);
     }
     accel_query query = {.user = NULL};
     accel_error error;
-    return accel_irradiance_paths(photons, &y->s.run, receivers, y->s.radius[which], config, out,
-                                  &query, &error);
+    return irradiance_paths(photons, &y->s.run, receivers, y->s.radius[which], config, out, &query,
+                            &error);
 }
 
 static bool no_memory(const study *y)
 {
-    accel_complain(y->r->command, "no memory for %u photons; nothing was written",
-                   (unsigned)y->s.run.photons);
+    complain(y->r->command, "no memory for %u photons; nothing was written",
+             (unsigned)y->s.run.photons);
     return false;
 }
 
 static bool add_seed(study *y, const accel *a, uint64_t seed)
 {
-    accel_photons photons;
+    struct photons photons;
     y->s.run.seed = seed;
-    y->s.run.threads = accel_crew_size();
-    if (!accel_trace_photons(&photons, a, &y->s.loaded.scene, &y->s.run)) {
+    y->s.run.threads = crew_size();
+    if (!trace_photons(&photons, a, &y->s.loaded.scene, &y->s.run)) {
         return no_memory(y);
     }
     if (seed == 1) {
-        y->hash = accel_photons_hash(&photons);
+        y->hash = photons_hash(&photons);
     }
     bool fine = true;
     for (int e = 0; fine && e < ESTIMATES; e++) {
-        double got[ACCEL_RECEIVERS];
+        double got[RECEIVERS];
         fine = estimate(y, &photons, e, ACCEL_DEFAULT_CONFIG, got);
         for (size_t i = 0; fine && i < y->s.count; i++) {
             const double off = (got[i] - y->s.right[i]) / y->s.mean;
@@ -99,7 +98,7 @@ static bool add_seed(study *y, const accel *a, uint64_t seed)
             y->square[e][i] += off * off;
         }
     }
-    accel_photons_free(&photons);
+    photons_free(&photons);
     return fine || no_memory(y);
 }
 
@@ -117,13 +116,13 @@ static void sum_up(study *y, int e)
         mean_square += mean * mean / n;
         noise += (spread / SEEDS + own * own) / n;
     }
-    y->rows[e] = (accel_light_row){.estimator = e == ACCEL_RADII ? "nearest" : "paths",
-                                   .radius = e == ACCEL_RADII ? 1 : e,
-                                   .photons = y->s.run.photons,
-                                   .seeds = SEEDS,
-                                   .rmse = sqrt(all),
-                                   .bias = sqrt(fmax(0.0, mean_square - noise)),
-                                   .bias_seen = sqrt(noise)};
+    y->rows[e] = (struct light_row){.estimator = e == RADII ? "nearest" : "paths",
+                                    .radius = e == RADII ? 1 : e,
+                                    .photons = y->s.run.photons,
+                                    .seeds = SEEDS,
+                                    .rmse = sqrt(all),
+                                    .bias = sqrt(fmax(0.0, mean_square - noise)),
+                                    .bias_seen = sqrt(noise)};
 }
 
 static bool measure_errors(study *y, const accel *a)
@@ -131,7 +130,7 @@ static bool measure_errors(study *y, const accel *a)
     memset(y->sum, 0, sizeof y->sum);
     memset(y->square, 0, sizeof y->square);
     for (uint64_t seed = 1; seed <= SEEDS; seed++) {
-        accel_progress_show(&y->r->progress, y->s.name, (double)seed / SEEDS);
+        progress_show(&y->r->progress, y->s.name, (double)seed / SEEDS);
         if (!add_seed(y, a, seed)) {
             return false;
         }
@@ -152,7 +151,7 @@ typedef struct times {
 static void write_rows(const study *y, const char *config, const times *t, uint64_t hash)
 {
     for (int e = 0; e < ESTIMATES; e++) {
-        const accel_light_row *row = &y->rows[e];
+        const struct light_row *row = &y->rows[e];
         fprintf(y->csv, "%s,%s,%.4g,%u,%u,%s,%.6f,%.6f,%.6f,%.6f,%.5e,%.5e,%.5e,%.3e,%016llx\n",
                 y->s.name, row->estimator, y->s.radius[row->radius], (unsigned)row->photons,
                 row->seeds, config, t->build, t->photons, t->estimate[e],
@@ -164,20 +163,20 @@ static void write_rows(const study *y, const char *config, const times *t, uint6
 /* Adds one run to the times. */
 static bool time_once(study *y, const accel *a, const char *config, times *t, uint64_t *hash)
 {
-    accel_photons photons;
-    if (!accel_trace_photons(&photons, a, &y->s.loaded.scene, &y->s.run)) {
+    struct photons photons;
+    if (!trace_photons(&photons, a, &y->s.loaded.scene, &y->s.run)) {
         return no_memory(y);
     }
-    *hash = accel_photons_hash(&photons);
+    *hash = photons_hash(&photons);
     t->photons += photons.processor;
     bool fine = true;
     for (int e = 0; fine && e < ESTIMATES; e++) {
-        double got[ACCEL_RECEIVERS];
-        const double start = accel_machine_seconds();
+        double got[RECEIVERS];
+        const double start = machine_seconds();
         fine = estimate(y, &photons, e, config, got);
-        t->estimate[e] += accel_machine_seconds() - start;
+        t->estimate[e] += machine_seconds() - start;
     }
-    accel_photons_free(&photons);
+    photons_free(&photons);
     return fine || no_memory(y);
 }
 
@@ -211,7 +210,7 @@ static bool time_all(study *y)
 {
     bool fine = true;
     for (size_t i = 0; fine && i < y->count; i++) {
-        accel_progress_show(&y->r->progress, y->at[i].config, -1.0);
+        progress_show(&y->r->progress, y->at[i].config, -1.0);
         fine = time_structure(y, i);
         y->best = i == 0 || y->total[i] < y->total[y->best] ? i : y->best;
         y->worst = i == 0 || y->total[i] > y->total[y->worst] ? i : y->worst;
@@ -228,7 +227,7 @@ static bool build_all(study *y)
         if (strcmp(kind[k]->name, "linear") == 0) {
             continue;
         }
-        accel *a = accel_report_build(y->r, &y->s.loaded.scene, kind[k]->name);
+        accel *a = report_build(y->r, &y->s.loaded.scene, kind[k]->name);
         if (a == NULL) {
             return false;
         }
@@ -241,16 +240,16 @@ static bool build_all(study *y)
  * from the structure built last, which is auto. */
 static bool run_steps(study *y, double seconds)
 {
-    const double end = accel_seconds() + seconds;
+    const double end = seconds_now() + seconds;
     int rounds = 0;
     for (uint32_t n = 1000; n <= MOST_PHOTONS; n *= 10, rounds++) {
-        const double start = accel_seconds();
+        const double start = seconds_now();
         y->s.run.photons = n;
         if (!measure_errors(y, y->at[y->count - 1].a) || !time_all(y)) {
             return false;
         }
-        const double next = 10.0 * (accel_seconds() - start);
-        if (rounds + 1 >= LEAST_ROUNDS && accel_seconds() + next > end) {
+        const double next = 10.0 * (seconds_now() - start);
+        if (rounds + 1 >= LEAST_ROUNDS && seconds_now() + next > end) {
             break;
         }
     }
@@ -258,19 +257,18 @@ static bool run_steps(study *y, double seconds)
 }
 
 /* Adds to `note` who was slowest. */
-static bool run_study(accel_reporting *r, FILE *csv, bool plates, double seconds, char *note,
+static bool run_study(struct reporting *r, FILE *csv, bool plates, double seconds, char *note,
                       size_t room)
 {
     study *y = calloc(1, sizeof *y);
     if (y == NULL) {
-        accel_complain(r->command, "no memory; nothing was written");
+        complain(r->command, "no memory; nothing was written");
         return false;
     }
     y->r = r;
     y->csv = csv;
-    const bool fine =
-        (plates ? accel_light_plates(&y->s, r) : accel_light_teapots(&y->s, r, 0.15 * seconds)) &&
-        build_all(y) && run_steps(y, (plates ? 1.0 : 0.85) * seconds);
+    const bool fine = (plates ? light_plates(&y->s, r) : light_teapots(&y->s, r, 0.15 * seconds)) &&
+                      build_all(y) && run_steps(y, (plates ? 1.0 : 0.85) * seconds);
     if (fine) {
         const size_t used = strlen(note);
         snprintf(note + used, room - used,
@@ -282,17 +280,17 @@ static bool run_study(accel_reporting *r, FILE *csv, bool plates, double seconds
     for (size_t i = 0; i < y->count; i++) {
         accel_free(y->at[i].a);
     }
-    accel_light_scene_free(&y->s);
+    light_scene_free(&y->s);
     free(y);
     return fine;
 }
 
-bool accel_report_light(accel_reporting *r, double seconds)
+bool report_light(struct reporting *r, double seconds)
 {
-    if (!accel_report_has_structures(r, "light", ACCEL_LIGHT_TITLE)) {
+    if (!report_has_structures(r, "light", ACCEL_LIGHT_TITLE)) {
         return true;
     }
-    FILE *csv = accel_report_csv(r, ACCEL_LIGHT_CSV, columns);
+    FILE *csv = report_csv(r, ACCEL_LIGHT_CSV, columns);
     if (csv == NULL) {
         return false;
     }
@@ -304,5 +302,5 @@ bool accel_report_light(accel_reporting *r, double seconds)
         fclose(csv);
         return false;
     }
-    return accel_report_csv_close(r, csv, ACCEL_LIGHT_CSV) && accel_light_page(r, note);
+    return report_csv_close(r, csv, ACCEL_LIGHT_CSV) && light_page(r, note);
 }

@@ -13,37 +13,37 @@
 #include "photons.h"
 #include "report.h"
 
-enum { ACCEL_RECEIVERS = 64, ACCEL_RADII = 3 };
+enum { RECEIVERS = 64, RADII = 3 };
 
-/* A scene and what is right in it. Ended by accel_light_scene_free. */
-typedef struct accel_light_scene {
+/* A scene and what is right in it. Ended by light_scene_free. */
+struct light_scene {
     const char *name, *title;
-    accel_loaded loaded;
-    accel_light light;
-    accel_photon_run run; /* its light and reflectance; photons and seed are set for each run */
-    accel_receiver receivers[ACCEL_RECEIVERS];
-    accel_id on[ACCEL_RECEIVERS]; /* the primitives that they lie on */
-    size_t count;                 /* of receivers */
-    double radius[ACCEL_RADII];
-    double right[ACCEL_RECEIVERS]; /* irradiance */
-    double error[ACCEL_RECEIVERS]; /* standard error of it */
-    double mean;                   /* of right */
-    double floor;                  /* root of the mean square of error, over mean */
-} accel_light_scene;
+    struct loaded loaded;
+    struct light light;
+    struct photon_run run; /* its light and reflectance; photons and seed are set for each run */
+    struct receiver receivers[RECEIVERS];
+    accel_id on[RECEIVERS]; /* the primitives that they lie on */
+    size_t count;           /* of receivers */
+    double radius[RADII];
+    double right[RECEIVERS]; /* irradiance */
+    double error[RECEIVERS]; /* standard error of it */
+    double mean;             /* of right */
+    double floor;            /* root of the mean square of error, over mean */
+};
 
-bool accel_light_plates(accel_light_scene *s, accel_reporting *r);
+bool light_plates(struct light_scene *s, struct reporting *r);
 
 /* The reference takes about `seconds`. */
-bool accel_light_teapots(accel_light_scene *s, accel_reporting *r, double seconds);
+bool light_teapots(struct light_scene *s, struct reporting *r, double seconds);
 
-void accel_light_scene_free(accel_light_scene *s);
+void light_scene_free(struct light_scene *s);
 
 /* Irradiance of the receivers by paths from them: fills right and error. `a` is built over the
  * scene. */
-void accel_light_reference(accel_light_scene *s, const accel *a, double seconds);
+void light_reference(struct light_scene *s, const accel *a, double seconds);
 
 /* What one line of the figures says. */
-typedef struct accel_light_row {
+struct light_row {
     const char *estimator; /* "paths" or "nearest" */
     int radius;            /* its index */
     uint32_t photons;
@@ -51,10 +51,10 @@ typedef struct accel_light_row {
     double rmse;      /* over receivers and seeds, over the mean irradiance */
     double bias;      /* root of the mean square over receivers, the noise taken off; not below 0 */
     double bias_seen; /* what of bias can be told from noise: its standard error */
-} accel_light_row;
+};
 
 /* Draws the plots and writes the page; `slowest` is the caption of the last plot. */
-bool accel_light_page(accel_reporting *r, const char *slowest);
+bool light_page(struct reporting *r, const char *slowest);
 
 #define ACCEL_LIGHT_CSV   "light.csv"
 #define ACCEL_LIGHT_TITLE "Illumination: error of photons, against all of their time"

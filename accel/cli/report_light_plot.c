@@ -121,10 +121,10 @@ static size_t timed_kinds(const char **names, size_t most)
 enum { MOST_KINDS = 32 };
 
 /* A curve for each structure at the middle radius, or for each radius through one structure. */
-static bool draw(accel_reporting *r, const char *name, bool by_structure)
+static bool draw(struct reporting *r, const char *name, bool by_structure)
 {
-    accel_plot plot;
-    if (!accel_plot_open(r, &plot, name, 900, 700)) {
+    struct plot plot;
+    if (!plot_open(r, &plot, name, 900, 700)) {
         return false;
     }
     const char *kinds[MOST_KINDS];
@@ -144,22 +144,22 @@ static bool draw(accel_reporting *r, const char *name, bool by_structure)
         for (size_t i = 0; i < (by_structure ? count : CURVES); i++) {
             draw_curve(plot.script, scene, row, by_structure ? &curves[1] : &curves[i],
                        by_structure ? kinds[i] : one,
-                       by_structure ? accel_plot_style(kinds[i]) : curves[i].style);
+                       by_structure ? plot_style(kinds[i]) : curves[i].style);
         }
         fprintf(plot.script, "NaN\n");
     }
     start_key(plot.script);
     for (size_t i = 0; i < (by_structure ? count : CURVES); i++) {
         fprintf(plot.script, "NaN with linespoints lw 1.3 %s title '%s', ",
-                by_structure ? accel_plot_style(kinds[i]) : curves[i].style,
+                by_structure ? plot_style(kinds[i]) : curves[i].style,
                 by_structure ? kinds[i] : curves[i].title);
     }
     end_key(plot.script);
-    return accel_plot_close(r, &plot);
+    return plot_close(r, &plot);
 }
 
 /* Build, photons and estimate of the largest run, one on the other, for each structure. */
-static bool draw_parts(accel_reporting *r)
+static bool draw_parts(struct reporting *r)
 {
     static const struct {
         const char *sum, *colour, *title;
@@ -168,8 +168,8 @@ static bool draw_parts(accel_reporting *r)
         {"$7+$8", "#0072B2", "photons"},
         {"$7", "#444444", "build"},
     };
-    accel_plot plot;
-    if (!accel_plot_open(r, &plot, "light-parts", 900, 360)) {
+    struct plot plot;
+    if (!plot_open(r, &plot, "light-parts", 900, 360)) {
         return false;
     }
     const char *kinds[MOST_KINDS];
@@ -205,16 +205,16 @@ static bool draw_parts(accel_reporting *r)
                 layers[i].title, i < 2 ? ", " : "\n");
     }
     fprintf(plot.script, "unset multiplot\n");
-    return accel_plot_close(r, &plot);
+    return plot_close(r, &plot);
 }
 
-bool accel_light_page(accel_reporting *r, const char *slowest)
+bool light_page(struct reporting *r, const char *slowest)
 {
     if (!draw(r, "light", true) || !draw(r, "light-radius", false) || !draw_parts(r)) {
         return false;
     }
-    accel_page_title(r, "light", ACCEL_LIGHT_TITLE);
-    accel_page_text(
+    page_title(r, "light", ACCEL_LIGHT_TITLE);
+    page_text(
         r,
         "Photons shot from a light are traced through the scene; the light that falls on a point "
         "is estimated from the photon paths that cross a disc around it (Lastra et al. 2002). All "
@@ -225,17 +225,17 @@ bool accel_light_page(accel_reporting *r, const char *slowest)
         "is known from elsewhere: for the plates by the form factor, a closed form, for the "
         "teapots by paths from the points to the light; the dashed line is the standard error of "
         "that. Search through all objects (<code>linear</code>) would take hours and is left out.");
-    return accel_page_plot(r, "light", ACCEL_LIGHT_CSV,
-                           "Total time against RMSE (above) and bias (below); 10<sup>3</sup> "
-                           "photons left, ten times more at each point; discs of the middle "
-                           "radius. An arrow down: the bias is below what noise lets one see. "
-                           "<b>Where we lose:</b> a structure that suits the scene badly pays at "
-                           "every number of photons; none makes the estimate better.") &&
-           accel_page_plot(r, "light-radius", ACCEL_LIGHT_CSV,
-                           "The same through one structure, for radii and for the nearest-photons "
-                           "estimate. A large disc is calm at once and then stays wrong by its "
-                           "bias; a small one needs more photons. <b>Where we lose:</b> with a "
-                           "fixed radius every curve ends at its bias; more photons are then "
-                           "wasted.") &&
-           accel_page_plot(r, "light-parts", ACCEL_LIGHT_CSV, slowest);
+    return page_plot(r, "light", ACCEL_LIGHT_CSV,
+                     "Total time against RMSE (above) and bias (below); 10<sup>3</sup> "
+                     "photons left, ten times more at each point; discs of the middle "
+                     "radius. An arrow down: the bias is below what noise lets one see. "
+                     "<b>Where we lose:</b> a structure that suits the scene badly pays at "
+                     "every number of photons; none makes the estimate better.") &&
+           page_plot(r, "light-radius", ACCEL_LIGHT_CSV,
+                     "The same through one structure, for radii and for the nearest-photons "
+                     "estimate. A large disc is calm at once and then stays wrong by its "
+                     "bias; a small one needs more photons. <b>Where we lose:</b> with a "
+                     "fixed radius every curve ends at its bias; more photons are then "
+                     "wasted.") &&
+           page_plot(r, "light-parts", ACCEL_LIGHT_CSV, slowest);
 }

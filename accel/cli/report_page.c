@@ -25,7 +25,7 @@ static const char head[] =
     ".told{color:#777;font-style:italic}small{color:#555}\n"
     "</style></head><body>\n";
 
-void accel_page_escaped(accel_reporting *r, const char *text)
+void page_escaped(struct reporting *r, const char *text)
 {
     for (; *text != '\0'; text++) {
         switch (*text) {
@@ -44,23 +44,23 @@ void accel_page_escaped(accel_reporting *r, const char *text)
     }
 }
 
-void accel_page_open(accel_reporting *r)
+void page_open(struct reporting *r)
 {
     char processor[256], day[40];
     const time_t now = time(NULL);
     struct tm parts;
-    accel_machine_processor(processor, sizeof processor);
+    machine_processor(processor, sizeof processor);
     strftime(day, sizeof day, "%Y-%m-%d %H:%M UTC", gmtime_r(&now, &parts));
     fputs(head, r->page);
     fprintf(r->page, "<h1>accel: error against run time</h1>\n<p><small>");
-    accel_page_escaped(r, processor);
+    page_escaped(r, processor);
     fprintf(r->page, "<br/>");
-    accel_page_escaped(r, accel_machine_build());
+    page_escaped(r, machine_build());
     fprintf(r->page,
             "<br/>%s; time for the whole: about %.0f seconds; made by <code>accel report</code>"
             "</small></p>\n",
             day, r->seconds);
-    accel_page_text(
+    page_text(
         r, "A ray tracer asks one question again and again: <em>which object does this ray hit "
            "first?</em> An acceleration structure answers it without testing every object. "
            "<code>accel</code> is a library of such structures: a uniform <b>grid</b>, a hierarchy "
@@ -71,24 +71,24 @@ void accel_page_open(accel_reporting *r)
            "is wrong, and what being right costs. Times are processor time of one thread.");
 }
 
-bool accel_page_close(accel_reporting *r)
+bool page_close(struct reporting *r)
 {
     fprintf(r->page, "</body></html>\n");
-    accel_folder_list(&r->folder, r->page);
-    const char *trouble = accel_folder_close(&r->folder, r->page);
+    folder_list(&r->folder, r->page);
+    const char *trouble = folder_close(&r->folder, r->page);
     r->page = NULL;
     if (trouble != NULL) {
-        accel_complain(r->command, "cannot write index.html: %s; nothing was written", trouble);
+        complain(r->command, "cannot write index.html: %s; nothing was written", trouble);
     }
     return trouble == NULL;
 }
 
-void accel_page_title(accel_reporting *r, const char *id, const char *title)
+void page_title(struct reporting *r, const char *id, const char *title)
 {
     fprintf(r->page, "<h2 id=\"%s\">%s</h2>\n", id, title);
 }
 
-void accel_page_text(accel_reporting *r, const char *format, ...)
+void page_text(struct reporting *r, const char *format, ...)
 {
     va_list list;
     va_start(list, format);
@@ -99,7 +99,7 @@ void accel_page_text(accel_reporting *r, const char *format, ...)
 }
 
 /* The SVG element of a file, without what stands before it. */
-static bool copy_svg(accel_reporting *r, FILE *svg)
+static bool copy_svg(struct reporting *r, FILE *svg)
 {
     char line[4096];
     bool inside = false;
@@ -113,11 +113,11 @@ static bool copy_svg(accel_reporting *r, FILE *svg)
     return inside;
 }
 
-bool accel_page_plot(accel_reporting *r, const char *name, const char *csv, const char *caption)
+bool page_plot(struct reporting *r, const char *name, const char *csv, const char *caption)
 {
     char file[64];
     snprintf(file, sizeof file, "%s.svg", name);
-    FILE *svg = accel_folder_read(&r->folder, file);
+    FILE *svg = folder_read(&r->folder, file);
     fprintf(r->page, "<figure id=\"%s\">\n", name);
     const bool fine = svg != NULL && copy_svg(r, svg);
     if (svg != NULL) {
@@ -128,7 +128,7 @@ bool accel_page_plot(accel_reporting *r, const char *name, const char *csv, cons
             "</small></figcaption></figure>\n",
             caption, name, csv);
     if (!fine) {
-        accel_complain(r->command, "gnuplot made no %s; nothing was written", file);
+        complain(r->command, "gnuplot made no %s; nothing was written", file);
     }
     return fine;
 }

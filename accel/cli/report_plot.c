@@ -52,7 +52,7 @@ static int gnuplot(const char *folder, const streams *s, const char *argument)
     return child > 0 && WIFEXITED(status) ? WEXITSTATUS(status) : 128;
 }
 
-const char *accel_plot_missing(void)
+const char *plot_missing(void)
 {
     const int nowhere = open("/dev/null", O_RDWR | O_CLOEXEC);
     const streams s = {{nowhere, nowhere, nowhere}};
@@ -61,7 +61,7 @@ const char *accel_plot_missing(void)
     return fine ? NULL : "gnuplot cannot be run, which draws the plots (Debian: gnuplot-nox)";
 }
 
-static void write_style(const accel_plot *plot, int width, int height)
+static void write_style(const struct plot *plot, int width, int height)
 {
     fprintf(plot->script,
             "set terminal svg size %d,%d dynamic enhanced font 'Helvetica,Arial,sans-serif,13' "
@@ -79,15 +79,15 @@ static void write_style(const accel_plot *plot, int width, int height)
             width, height);
 }
 
-bool accel_plot_open(accel_reporting *r, accel_plot *plot, const char *name, int width, int height)
+bool plot_open(struct reporting *r, struct plot *plot, const char *name, int width, int height)
 {
-    *plot = (accel_plot){.script = NULL};
+    *plot = (struct plot){.script = NULL};
     snprintf(plot->name, sizeof plot->name, "%s", name);
     const int memory = memfd_create("script", MFD_CLOEXEC);
     plot->script = memory < 0 ? NULL : fdopen(memory, "w+");
     if (plot->script == NULL) {
-        accel_complain(r->command, "no memory for %s.svg: %s; nothing was written", name,
-                       strerror(errno));
+        complain(r->command, "no memory for %s.svg: %s; nothing was written", name,
+                 strerror(errno));
         close(memory);
         return false;
     }
@@ -131,24 +131,24 @@ static bool is_whole(const char *svg)
 }
 
 /* Writes the plot, smaller than gnuplot made it. */
-static bool write_svg(accel_reporting *r, const accel_plot *plot, char *svg)
+static bool write_svg(struct reporting *r, const struct plot *plot, char *svg)
 {
     char name[48];
     snprintf(name, sizeof name, "%s.svg", plot->name);
-    accel_svg_shrink(svg);
-    FILE *file = accel_folder_write(&r->folder, name);
+    svg_shrink(svg);
+    FILE *file = folder_write(&r->folder, name);
     const char *trouble = strerror(errno);
     if (file != NULL) {
         fputs(svg, file);
-        trouble = accel_folder_close(&r->folder, file);
+        trouble = folder_close(&r->folder, file);
     }
     if (trouble != NULL) {
-        accel_complain(r->command, "cannot write %s: %s; nothing was written", name, trouble);
+        complain(r->command, "cannot write %s: %s; nothing was written", name, trouble);
     }
     return trouble == NULL;
 }
 
-bool accel_plot_close(accel_reporting *r, accel_plot *plot)
+bool plot_close(struct reporting *r, struct plot *plot)
 {
     const streams s = {{fileno(plot->script), memfd_create("plot", MFD_CLOEXEC),
                         memfd_create("complaints", MFD_CLOEXEC)}};
@@ -161,8 +161,7 @@ bool accel_plot_close(accel_reporting *r, accel_plot *plot)
     } else {
         char line[300];
         first_complaint(complaints, line);
-        accel_complain(r->command, "gnuplot failed at %s.svg: %s; nothing was written", plot->name,
-                       line);
+        complain(r->command, "gnuplot failed at %s.svg: %s; nothing was written", plot->name, line);
     }
     free(svg);
     free(complaints);
@@ -186,7 +185,7 @@ static const struct style {
     {"auto", "lc rgb '#000000' pt 3", "lc rgb '#000000' pt 3"},
 };
 
-const char *accel_plot_style(const char *name)
+const char *plot_style(const char *name)
 {
     const size_t length = strcspn(name, ":");
     for (size_t i = 0; i < sizeof styles / sizeof styles[0]; i++) {

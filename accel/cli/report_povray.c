@@ -39,7 +39,7 @@ static _Noreturn void run_povray(const char *folder, const char *argument)
 }
 
 /* Did it end well? */
-static bool run(accel_reporting *r, const char *argument)
+static bool run(struct reporting *r, const char *argument)
 {
     fflush(NULL);
     const pid_t child = fork();
@@ -52,15 +52,15 @@ static bool run(accel_reporting *r, const char *argument)
     return child > 0 && WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
-const char *accel_povray_version(accel_reporting *r)
+const char *povray_version(struct reporting *r)
 {
     static char line[120];
-    FILE *log = accel_folder_write(&r->folder, log_name);
+    FILE *log = folder_write(&r->folder, log_name);
     if (log != NULL) {
         fclose(log);
     }
     const bool fine = run(r, "--version");
-    log = accel_folder_read(&r->folder, log_name);
+    log = folder_read(&r->folder, log_name);
     line[0] = '\0';
     while (log != NULL && fgets(line, sizeof line, log) != NULL &&
            strncmp(line, "POV-Ray", 7) != 0) {
@@ -68,7 +68,7 @@ const char *accel_povray_version(accel_reporting *r)
     if (log != NULL) {
         fclose(log);
     }
-    accel_folder_remove(&r->folder, log_name);
+    folder_remove(&r->folder, log_name);
     line[strcspn(line, "\n")] = '\0';
     return fine && strncmp(line, "POV-Ray", 7) == 0 ? line : NULL;
 }
@@ -104,20 +104,20 @@ static void write_object(FILE *f, const struct test_scene *s)
 }
 
 /* What is right for ray i, as the macro below takes it; -1 if nobody says so. */
-static int right_answer(const accel_exam *e, size_t i, double length, double *t)
+static int right_answer(const struct exam *e, size_t i, double length, double *t)
 {
     const struct crossing *c = &e->exact[i].crossing;
     *t = 1.0;
     switch (e->judge) {
-    case ACCEL_BY_HIT:
+    case BY_HIT:
         return 1;
-    case ACCEL_BY_INTEGERS:
+    case BY_INTEGERS:
         if (c->under == 0) {
             return 0;
         }
         *t = length * (double)c->over / (2.0 * (double)c->under);
         return 2;
-    case ACCEL_BY_ORACLE:
+    case BY_ORACLE:
         if (e->right[i].verdict != HIT) {
             return e->right[i].verdict == UNDECIDED ? -1 : 0;
         }
@@ -150,7 +150,7 @@ static bool can_be_said(double length)
 }
 
 /* One call of the macro for each ray; returns how many. */
-static size_t write_rays(FILE *f, const accel_exam *e, size_t most)
+static size_t write_rays(FILE *f, const struct exam *e, size_t most)
 {
     size_t asked = 0;
     for (size_t i = 0; i < e->set.count && asked < most; i++) {
@@ -182,9 +182,9 @@ static const char macro[] =
     "  #end #end #end\n"
     "#end\n";
 
-static bool read_answer(accel_reporting *r, accel_povray *out)
+static bool read_answer(struct reporting *r, struct povray *out)
 {
-    FILE *f = accel_folder_read(&r->folder, answer_name);
+    FILE *f = folder_read(&r->folder, answer_name);
     const bool fine =
         f != NULL && fscanf(f, "%zu %zu %zu", &out->lost, &out->false_hits, &out->off) == 3;
     if (f != NULL) {
@@ -193,11 +193,11 @@ static bool read_answer(accel_reporting *r, accel_povray *out)
     return fine;
 }
 
-bool accel_povray_ask(accel_reporting *r, const accel_exam *e, size_t most, accel_povray *out)
+bool povray_ask(struct reporting *r, const struct exam *e, size_t most, struct povray *out)
 {
-    *out = (accel_povray){.ran = false};
-    FILE *f = accel_folder_write(&r->folder, scene_name);
-    FILE *answer = accel_folder_write(&r->folder, answer_name);
+    *out = (struct povray){.ran = false};
+    FILE *f = folder_write(&r->folder, scene_name);
+    FILE *answer = folder_write(&r->folder, answer_name);
     if (answer != NULL) {
         fclose(answer);
     }
@@ -212,12 +212,12 @@ bool accel_povray_ask(accel_reporting *r, const accel_exam *e, size_t most, acce
             "#fopen F \"%s\" write\n#write (F, Lost, \" \", Found, \" \", Off, \"\\n\")\n"
             "#fclose F\n",
             answer_name);
-    const bool written = accel_folder_close(&r->folder, f) == NULL;
+    const bool written = folder_close(&r->folder, f) == NULL;
     char argument[64];
     snprintf(argument, sizeof argument, "+I%s", scene_name);
     out->ran = written && out->asked > 0 && run(r, argument) && read_answer(r, out);
-    accel_folder_remove(&r->folder, scene_name);
-    accel_folder_remove(&r->folder, answer_name);
-    accel_folder_remove(&r->folder, log_name);
+    folder_remove(&r->folder, scene_name);
+    folder_remove(&r->folder, answer_name);
+    folder_remove(&r->folder, log_name);
     return out->ran;
 }

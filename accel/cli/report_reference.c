@@ -29,7 +29,7 @@ enum { FLOOR_SIDE = 128, ROUND = 64, SEED = 977 };
 
 /* ------------------------------------------------------------------- scenes ---- */
 
-static void sum_up(accel_light_scene *s)
+static void sum_up(struct light_scene *s)
 {
     double square = 0.0;
     s->mean = 0.0;
@@ -40,102 +40,101 @@ static void sum_up(accel_light_scene *s)
     s->floor = sqrt(square) / s->mean;
 }
 
-static bool make_floor(accel_loaded *out)
+static bool make_floor(struct loaded *out)
 {
-    accel_growing mesh = {0};
+    struct growing mesh = {0};
     for (uint32_t i = 0; i <= FLOOR_SIDE; i++) {
         for (uint32_t j = 0; j <= FLOOR_SIDE; j++) {
-            accel_grow_vertex(&mesh, (double)i / FLOOR_SIDE, 0.0, (double)j / FLOOR_SIDE);
+            grow_vertex(&mesh, (double)i / FLOOR_SIDE, 0.0, (double)j / FLOOR_SIDE);
         }
     }
     for (uint32_t i = 0; i < FLOOR_SIDE; i++) {
         for (uint32_t j = 0; j < FLOOR_SIDE; j++) {
             const uint32_t a = i * (FLOOR_SIDE + 1) + j, b = a + FLOOR_SIDE + 1;
-            accel_grow_triangle(&mesh, a, b, b + 1);
-            accel_grow_triangle(&mesh, a, b + 1, a + 1);
+            grow_triangle(&mesh, a, b, b + 1);
+            grow_triangle(&mesh, a, b + 1, a + 1);
         }
     }
-    return accel_loaded_add(out, ACCEL_TRIANGLES, &mesh);
+    return loaded_add(out, ACCEL_TRIANGLES, &mesh);
 }
 
-bool accel_light_plates(accel_light_scene *s, accel_reporting *r)
+bool light_plates(struct light_scene *s, struct reporting *r)
 {
-    *s = (accel_light_scene){.name = "plates",
-                             .title = "lit square over a black floor",
-                             .light = {{0, 1, 0}, {{1, 0, 0}, {0, 0, 1}}, 1.0},
-                             .radius = {0.01, 0.04, 0.16}};
-    s->run.lights = (accel_lights){&s->light, 1};
+    *s = (struct light_scene){.name = "plates",
+                              .title = "lit square over a black floor",
+                              .light = {{0, 1, 0}, {{1, 0, 0}, {0, 0, 1}}, 1.0},
+                              .radius = {0.01, 0.04, 0.16}};
+    s->run.lights = (struct lights){&s->light, 1};
     if (!make_floor(&s->loaded)) {
-        accel_complain(r->command, "no memory for the plates; nothing was written");
+        complain(r->command, "no memory for the plates; nothing was written");
         return false;
     }
-    for (int i = 0; i < ACCEL_RECEIVERS; i++) {
+    for (int i = 0; i < RECEIVERS; i++) {
         const double x = 0.2 + 0.6 * (i % 8) / 7.0, z = 0.2 + 0.6 * (i / 8) / 7.0;
-        s->receivers[i] = (accel_receiver){{x, 0, z}, {0, 1, 0}};
-        s->right[i] = accel_ceiling_form_factor(x, z);
+        s->receivers[i] = (struct receiver){{x, 0, z}, {0, 1, 0}};
+        s->right[i] = ceiling_form_factor(x, z);
     }
-    s->count = ACCEL_RECEIVERS;
+    s->count = RECEIVERS;
     sum_up(s);
     return true;
 }
 
 /* Points that a camera sees, evenly over its picture. */
-static void find_receivers(accel_light_scene *s, const accel *a, const accel_box *box)
+static void find_receivers(struct light_scene *s, const accel *a, const accel_box *box)
 {
     double eye[3], at[3];
-    accel_camera camera;
-    accel_camera_frame(box, eye, at);
-    accel_camera_make(&camera, eye, at, 40.0, 4 * ACCEL_RECEIVERS, 4 * ACCEL_RECEIVERS);
-    for (uint64_t i = 0; s->count < ACCEL_RECEIVERS && i < 64 * ACCEL_RECEIVERS; i++) {
-        accel_random random = accel_random_start(SEED, 1, i);
-        const accel_ray ray =
-            accel_camera_ray(&camera, accel_random_in(&random, 0, 4 * ACCEL_RECEIVERS),
-                             accel_random_in(&random, 0, 4 * ACCEL_RECEIVERS));
+    struct camera camera;
+    camera_frame(box, eye, at);
+    camera_make(&camera, eye, at, 40.0, 4 * RECEIVERS, 4 * RECEIVERS);
+    for (uint64_t i = 0; s->count < RECEIVERS && i < 64 * RECEIVERS; i++) {
+        struct random random = random_start(SEED, 1, i);
+        const accel_ray ray = camera_ray(&camera, random_in(&random, 0, 4 * RECEIVERS),
+                                         random_in(&random, 0, 4 * RECEIVERS));
         accel_hit hit;
         if (!accel_closest(a, &ray, &hit, NULL)) {
             continue;
         }
-        const accel_surface surface = accel_surface_at(&s->loaded.scene, &ray, &hit);
-        accel_receiver *to = &s->receivers[s->count];
+        const struct surface surface = surface_at(&s->loaded.scene, &ray, &hit);
+        struct receiver *to = &s->receivers[s->count];
         memcpy(to->at, surface.at, sizeof to->at);
         memcpy(to->normal, surface.normal, sizeof to->normal);
         s->on[s->count++] = (accel_id){hit.geom, hit.prim};
     }
 }
 
-bool accel_light_teapots(accel_light_scene *s, accel_reporting *r, double seconds)
+bool light_teapots(struct light_scene *s, struct reporting *r, double seconds)
 {
     static const char scene[] = "teapots";
-    accel_light lights[ACCEL_MOST_LIGHTS];
-    *s = (accel_light_scene){.name = scene, .title = "nine teapots and a floor"};
-    if (!accel_open_scene(&s->loaded, scene, r->command, &r->progress)) {
+    struct light lights[MOST_LIGHTS];
+    *s = (struct light_scene){.name = scene, .title = "nine teapots and a floor"};
+    if (!open_scene(&s->loaded, scene, r->command, &r->progress)) {
         return false;
     }
-    accel_scene_lights(scene, &s->loaded.scene, lights);
+    scene_lights(scene, &s->loaded.scene, lights);
     s->light = lights[0];
-    s->run.lights = (accel_lights){&s->light, 1};
+    s->run.lights = (struct lights){&s->light, 1};
     s->run.reflectance = 0.5;
-    accel *a = accel_report_build(r, &s->loaded.scene, ACCEL_DEFAULT_CONFIG);
+    accel *a = report_build(r, &s->loaded.scene, ACCEL_DEFAULT_CONFIG);
     if (a == NULL) {
         return false;
     }
     accel_box box;
     double size[3];
-    accel_scene_box(&s->loaded.scene, &box);
+    scene_box(&s->loaded.scene, &box);
     vector_subtract(size, box.hi, box.lo);
-    for (int i = 0; i < ACCEL_RADII; i++) {
+    for (int i = 0; i < RADII; i++) {
         s->radius[i] = 0.0025 * pow(4.0, i) * sqrt(vector_dot(size, size));
     }
     find_receivers(s, a, &box);
-    accel_light_reference(s, a, seconds);
+    light_reference(s, a, seconds);
     sum_up(s);
     accel_free(a);
     return true;
 }
 
-void accel_light_scene_free(accel_light_scene *s)
+void light_scene_free(struct light_scene *s)
 {
-    accel_unload_scene(&s->loaded);
+    unload_scene(&s->loaded);
 }
 
 /* ---------------------------------------------------------------- reference ---- */
@@ -147,11 +146,11 @@ typedef struct stop {
 } stop;
 
 /* Direct light at a point, by one random point of the light. */
-static double direct(const accel_light_scene *s, const accel *a, const stop *p,
-                     accel_random *random)
+static double direct(const struct light_scene *s, const accel *a, const stop *p,
+                     struct random *random)
 {
     double normal[3], to[3], ray_to[3];
-    const double u = accel_random_unit(random), v = accel_random_unit(random);
+    const double u = random_unit(random), v = random_unit(random);
     for (int k = 0; k < 3; k++) {
         ray_to[k] = s->light.corner[k] + u * s->light.edge[0][k] + v * s->light.edge[1][k];
     }
@@ -169,23 +168,23 @@ static double direct(const accel_light_scene *s, const accel *a, const stop *p,
     return accel_any(a, &ray, NULL) ? 0.0 : s->light.power / PI * here * there / (square * square);
 }
 
-static double follow(const accel_light_scene *s, const accel *a, size_t receiver, uint64_t number)
+static double follow(const struct light_scene *s, const accel *a, size_t receiver, uint64_t number)
 {
-    accel_random random = accel_random_start(SEED, 2 + (uint32_t)receiver, number);
+    struct random random = random_start(SEED, 2 + (uint32_t)receiver, number);
     stop p = {.on = s->on[receiver]};
     memcpy(p.at, s->receivers[receiver].at, sizeof p.at);
     memcpy(p.normal, s->receivers[receiver].normal, sizeof p.normal);
     double sum = direct(s, a, &p, &random);
-    while (accel_random_unit(&random) < s->run.reflectance) {
+    while (random_unit(&random) < s->run.reflectance) {
         double dir[3];
-        accel_scatter(p.normal, &random, dir);
+        scatter(p.normal, &random, dir);
         accel_ray ray = accel_ray_from(p.at, dir);
         ray.skip = p.on;
         accel_hit hit;
         if (!accel_closest(a, &ray, &hit, NULL)) {
             break;
         }
-        const accel_surface surface = accel_surface_at(&s->loaded.scene, &ray, &hit);
+        const struct surface surface = surface_at(&s->loaded.scene, &ray, &hit);
         memcpy(p.at, surface.at, sizeof p.at);
         memcpy(p.normal, surface.normal, sizeof p.normal);
         p.on = (accel_id){hit.geom, hit.prim};
@@ -196,7 +195,7 @@ static double follow(const accel_light_scene *s, const accel *a, size_t receiver
 
 /* Shared by the threads: each takes receivers. */
 typedef struct gathering {
-    accel_light_scene *s;
+    struct light_scene *s;
     const accel *a;
     double seconds;     /* for each receiver */
     atomic_size_t next; /* receiver that nobody has taken */
@@ -205,7 +204,7 @@ typedef struct gathering {
 static void gather_one(const gathering *g, size_t receiver)
 {
     double sum = 0.0, square = 0.0, n = 0.0;
-    const double start = accel_seconds();
+    const double start = seconds_now();
     do {
         for (int i = 0; i < ROUND; i++) {
             const double e = follow(g->s, g->a, receiver, (uint64_t)n);
@@ -213,7 +212,7 @@ static void gather_one(const gathering *g, size_t receiver)
             square += e * e;
             n += 1.0;
         }
-    } while (n < 4 * ROUND || accel_seconds() - start < g->seconds);
+    } while (n < 4 * ROUND || seconds_now() - start < g->seconds);
     const double mean = sum / n;
     g->s->right[receiver] = mean;
     g->s->error[receiver] = sqrt(fmax(0.0, square / n - mean * mean) / (n - 1.0));
@@ -229,10 +228,10 @@ static void gather_some(void *user, unsigned thread)
     }
 }
 
-void accel_light_reference(accel_light_scene *s, const accel *a, double seconds)
+void light_reference(struct light_scene *s, const accel *a, double seconds)
 {
-    const unsigned threads = accel_crew_size();
+    const unsigned threads = crew_size();
     gathering g = {
         .s = s, .a = a, .seconds = seconds * threads / (double)(s->count > 0 ? s->count : 1)};
-    accel_crew(threads, gather_some, &g);
+    crew(threads, gather_some, &g);
 }

@@ -35,18 +35,18 @@ enum {
 /* What the words say: of the largest scene that was run. */
 typedef struct summary {
     uint64_t primitives;
-    accel_run fastest, slowest_build; /* of ours, linear left out */
-    accel_run peer;                   /* the fastest; its name is empty where there is none */
-    double built;                     /* seconds of all builds */
+    struct run fastest, slowest_build; /* of ours, linear left out */
+    struct run peer;                   /* the fastest; its name is empty where there is none */
+    double built;                      /* seconds of all builds */
 } summary;
 
-static void sum_up(summary *s, const accel_run *run)
+static void sum_up(summary *s, const struct run *run)
 {
     s->built += run->build;
     if (strcmp(run->name, "linear") == 0) {
         return;
     }
-    accel_run *best = run->peer ? &s->peer : &s->fastest;
+    struct run *best = run->peer ? &s->peer : &s->fastest;
     if (best->name[0] == '\0' || run->ns < best->ns) {
         *best = *run;
     }
@@ -56,7 +56,7 @@ static void sum_up(summary *s, const accel_run *run)
 }
 
 static void write_row(FILE *csv, const char *scene, uint64_t primitives, double x,
-                      const accel_run *run)
+                      const struct run *run)
 {
     fprintf(csv, "%s,%.0f,%s,%d,%zu,%zu,%.1f,%.2f,%.2f,%.6f,%.4f,%.1f\n", scene, x, run->name,
             run->peer, run->rays, run->wrong, run->ns, run->nodes, run->tests, run->build,
@@ -65,38 +65,38 @@ static void write_row(FILE *csv, const char *scene, uint64_t primitives, double 
 }
 
 /* Every form of ours, and the peers. */
-static bool run_all(accel_reporting *r, FILE *csv, const char *scene, double x, size_t rays,
+static bool run_all(struct reporting *r, FILE *csv, const char *scene, double x, size_t rays,
                     double seconds, summary *s)
 {
-    accel_ground g;
-    if (!accel_ground_make(&g, r, scene, x < 0.0 ? ACCEL_GROUND_BOUNCES : ACCEL_GROUND_PHOTONS,
-                           rays, 0.01 * seconds)) {
+    struct ground g;
+    if (!ground_make(&g, r, scene, x < 0.0 ? GROUND_BOUNCES : GROUND_PHOTONS, rays,
+                     0.01 * seconds)) {
         return false;
     }
-    const uint64_t primitives = accel_scene_primitives(&g.loaded.scene);
-    const accel_forms forms = accel_forms_of_kinds(NULL);
+    const uint64_t primitives = scene_primitives(&g.loaded.scene);
+    const struct forms forms = forms_of_kinds(NULL);
     bool fine = true;
     *s = (summary){.primitives = primitives};
     for (size_t i = 0; fine && i < forms.count; i++) {
-        accel_run run;
+        struct run run;
         if (strcmp(forms.at[i], "linear") == 0 && primitives > LINEAR_SIZE) {
             continue;
         }
-        accel_progress_show(&r->progress, scene, (double)i / (double)forms.count);
+        progress_show(&r->progress, scene, (double)i / (double)forms.count);
         const bool linear = strcmp(forms.at[i], "linear") == 0;
-        fine = accel_run_config(&run, r, &g, forms.at[i], (linear ? 0.002 : 0.02) * seconds);
+        fine = run_config(&run, r, &g, forms.at[i], (linear ? 0.002 : 0.02) * seconds);
         if (fine) {
             write_row(csv, scene, primitives, x < 0.0 ? (double)primitives : x, &run);
             sum_up(s, &run);
         }
     }
-    accel_run peers[ACCEL_MOST_PEERS];
-    const size_t count = fine ? accel_run_peers(peers, &g) : 0;
+    struct run peers[MOST_PEERS];
+    const size_t count = fine ? run_peers(peers, &g) : 0;
     for (size_t i = 0; i < count; i++) {
         write_row(csv, scene, primitives, x < 0.0 ? (double)primitives : x, &peers[i]);
         sum_up(s, &peers[i]);
     }
-    accel_ground_free(&g);
+    ground_free(&g);
     return fine;
 }
 
@@ -108,24 +108,24 @@ static size_t rays_for(double seconds)
 }
 
 /* Ten times as many triangles as long as they fit. */
-static bool run_sizes(accel_reporting *r, FILE *csv, double seconds, summary *s)
+static bool run_sizes(struct reporting *r, FILE *csv, double seconds, summary *s)
 {
-    const double end = accel_seconds() + seconds;
+    const double end = seconds_now() + seconds;
     for (size_t i = 0; i < SIZES; i++) {
-        const double start = accel_seconds();
+        const double start = seconds_now();
         if (!run_all(r, csv, sizes[i], -1.0, rays_for(seconds), seconds, s)) {
             return false;
         }
         /* builds take a little more than ten times as long, rays less than twice */
-        const double next = 2.0 * (accel_seconds() - start) + 15.0 * s->built;
-        if (i + 1 >= LEAST && accel_seconds() + next > end) {
+        const double next = 2.0 * (seconds_now() - start) + 15.0 * s->built;
+        if (i + 1 >= LEAST && seconds_now() + next > end) {
             break;
         }
     }
     return true;
 }
 
-static bool run_gaps(accel_reporting *r, FILE *csv, double seconds, summary *s)
+static bool run_gaps(struct reporting *r, FILE *csv, double seconds, summary *s)
 {
     for (size_t i = 0; i < GAPS; i++) {
         char scene[40];
@@ -170,7 +170,7 @@ static const struct drawn_peer {
 
 static void draw_panel(FILE *script, const char *csv, const struct panel *p, const char *x)
 {
-    const accel_forms forms = accel_forms_of_kinds(NULL);
+    const struct forms forms = forms_of_kinds(NULL);
     fprintf(script, "set title '%s' offset 0,-0.5\nplot ", p->title);
     for (size_t i = 0; p->peers && i < 2; i++) {
         fprintf(script, "'%s' using (strcol(3)[13:] eq '%s' ? %s : NaN):(%s) with linespoints %s, ",
@@ -178,14 +178,14 @@ static void draw_panel(FILE *script, const char *csv, const struct panel *p, con
     }
     for (size_t i = 0; i < forms.count; i++) {
         fprintf(script, "'%s' using (strcol(3) eq '%s' ? %s : NaN):(%s) with linespoints %s, ", csv,
-                forms.at[i], x, p->value, accel_plot_style(forms.at[i]));
+                forms.at[i], x, p->value, plot_style(forms.at[i]));
     }
     fprintf(script, "NaN\n");
 }
 
 static void draw_key(FILE *script, double height)
 {
-    const accel_forms forms = accel_forms_of_kinds(NULL);
+    const struct forms forms = forms_of_kinds(NULL);
     fprintf(script,
             "unset title\nunset xlabel\nunset ylabel\nunset border\nunset tics\nunset grid\n"
             "unset logscale\nset xrange [0:1]\nset yrange [0:1]\nset origin 0.05,0\n"
@@ -196,7 +196,7 @@ static void draw_key(FILE *script, double height)
                 drawn_peers[i].title);
     }
     for (size_t i = 0; i < forms.count; i++) {
-        fprintf(script, "NaN with linespoints %s title '%s', ", accel_plot_style(forms.at[i]),
+        fprintf(script, "NaN with linespoints %s title '%s', ", plot_style(forms.at[i]),
                 forms.at[i]);
     }
     fprintf(script, "NaN\nunset multiplot\n");
@@ -208,10 +208,10 @@ static void start(FILE *script)
                     "set bmargin 0\nset lmargin 0\nset rmargin 0\nset format y '10^{%%T}'\n");
 }
 
-static bool draw_size(accel_reporting *r)
+static bool draw_size(struct reporting *r)
 {
-    accel_plot plot;
-    if (!accel_plot_open(r, &plot, "size", 960, 640)) {
+    struct plot plot;
+    if (!plot_open(r, &plot, "size", 960, 640)) {
         return false;
     }
     start(plot.script);
@@ -222,13 +222,13 @@ static bool draw_size(accel_reporting *r)
         draw_panel(plot.script, csv_name, &size_panels[i], "$2");
     }
     draw_key(plot.script, 0.13);
-    return accel_plot_close(r, &plot);
+    return plot_close(r, &plot);
 }
 
-static bool draw_gap(accel_reporting *r)
+static bool draw_gap(struct reporting *r)
 {
-    accel_plot plot;
-    if (!accel_plot_open(r, &plot, "gap", 960, 400)) {
+    struct plot plot;
+    if (!plot_open(r, &plot, "gap", 960, 400)) {
         return false;
     }
     start(plot.script);
@@ -241,7 +241,7 @@ static bool draw_gap(accel_reporting *r)
         draw_panel(plot.script, gap_name, &gap_panels[i], "($2 > 0 ? $2 : 0.25)");
     }
     draw_key(plot.script, 0.2);
-    return accel_plot_close(r, &plot);
+    return plot_close(r, &plot);
 }
 
 /* How a peer compares: nothing where there is none. */
@@ -255,7 +255,7 @@ static void write_peer(char *to, size_t room, const summary *s)
     }
 }
 
-static bool write_page(accel_reporting *r, const summary *size, const summary *gap)
+static bool write_page(struct reporting *r, const summary *size, const summary *gap)
 {
     char caption[1200], gap_caption[1200], peer[300];
     write_peer(peer, sizeof peer, size);
@@ -272,24 +272,22 @@ static bool write_page(accel_reporting *r, const summary *size, const summary *g
              "nodes are not less time by themselves: compare the first panel with the last. At the "
              "largest gap,%s",
              peer);
-    accel_page_title(r, "size", title);
-    accel_page_text(
-        r,
-        "The same scene, nine teapots and a floor, cut into more and more triangles; "
-        "and two clusters of cubes, farther and farther apart, as in the first table of "
-        "the paper on hierarchies of octrees. Rays are diffuse bounces; for the gap "
-        "photons from a light over each cluster, half of them reflected. Linear search "
-        "is asked up to %d triangles; of the larger scenes it judges a sample.",
-        LINEAR_SIZE);
-    return accel_page_plot(r, "size", csv_name, caption) &&
-           accel_page_plot(r, "gap", gap_name, gap_caption);
+    page_title(r, "size", title);
+    page_text(r,
+              "The same scene, nine teapots and a floor, cut into more and more triangles; "
+              "and two clusters of cubes, farther and farther apart, as in the first table of "
+              "the paper on hierarchies of octrees. Rays are diffuse bounces; for the gap "
+              "photons from a light over each cluster, half of them reflected. Linear search "
+              "is asked up to %d triangles; of the larger scenes it judges a sample.",
+              LINEAR_SIZE);
+    return page_plot(r, "size", csv_name, caption) && page_plot(r, "gap", gap_name, gap_caption);
 }
 
-static bool write_figures(accel_reporting *r, const char *name, const char *names,
-                          bool (*run)(accel_reporting *, FILE *, double, summary *), double seconds,
-                          summary *s)
+static bool write_figures(struct reporting *r, const char *name, const char *names,
+                          bool (*run)(struct reporting *, FILE *, double, summary *),
+                          double seconds, summary *s)
 {
-    FILE *csv = accel_report_csv(r, name, names);
+    FILE *csv = report_csv(r, name, names);
     if (csv == NULL) {
         return false;
     }
@@ -297,12 +295,12 @@ static bool write_figures(accel_reporting *r, const char *name, const char *name
         fclose(csv);
         return false;
     }
-    return accel_report_csv_close(r, csv, name);
+    return report_csv_close(r, csv, name);
 }
 
-bool accel_report_size(accel_reporting *r, double seconds)
+bool report_size(struct reporting *r, double seconds)
 {
-    if (!accel_report_has_structures(r, "size", title)) {
+    if (!report_has_structures(r, "size", title)) {
         return true;
     }
     summary gap, size;

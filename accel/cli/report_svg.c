@@ -124,7 +124,7 @@ static const char *copy(writer *w, const char *text)
     return text + 1;
 }
 
-void accel_svg_shrink(char *svg)
+void svg_shrink(char *svg)
 {
     writer w = {.out = malloc(strlen(svg) + 1)};
     if (w.out == NULL) {

@@ -9,6 +9,6 @@
 #include <stddef.h>
 
 /* Makes the text of a plot shorter in place; leaves it alone where its groups do not match. */
-void accel_svg_shrink(char *svg);
+void svg_shrink(char *svg);
 
 #endif

@@ -8,12 +8,12 @@
 #include "photons_vector.h"
 #include "random.h"
 
-static inline void accel_scatter(const double normal[3], accel_random *random, double out[3])
+static inline void scatter(const double normal[3], struct random *random, double out[3])
 {
     double x[3], y[3];
     const double axis[3] = {fabs(normal[0]) < 0.5, fabs(normal[0]) >= 0.5, 0.0};
-    const double square = accel_random_unit(random);
-    const double angle = 6.283185307179586 * accel_random_unit(random), r = sqrt(square);
+    const double square = random_unit(random);
+    const double angle = 6.283185307179586 * random_unit(random), r = sqrt(square);
     vector_cross(x, normal, axis);
     vector_normalize(x);
     vector_cross(y, normal, x);

@@ -15,20 +15,19 @@
 
 enum { MOST_OPTIONS = 8 };
 
-static const accel_generator *const generators[] = {
-    &accel_generator_cubes, &accel_generator_teapots, &accel_generator_stadium,
-    &accel_generator_soup,  &accel_generator_spheres, &accel_generator_nested,
-    &accel_generator_same,  &accel_generator_one,     &accel_generator_empty,
+static const struct generator *const generators[] = {
+    &generator_cubes,  &generator_teapots, &generator_stadium, &generator_soup,  &generator_spheres,
+    &generator_nested, &generator_same,    &generator_one,     &generator_empty,
 };
 
 enum { GENERATORS = sizeof generators / sizeof generators[0] };
 
-const accel_kind_info *const *accel_scene_kinds(size_t *count)
+const accel_kind_info *const *scene_kinds(size_t *count)
 {
     static const accel_kind_info *const kinds[GENERATORS] = {
-        &accel_generator_cubes.info, &accel_generator_teapots.info, &accel_generator_stadium.info,
-        &accel_generator_soup.info,  &accel_generator_spheres.info, &accel_generator_nested.info,
-        &accel_generator_same.info,  &accel_generator_one.info,     &accel_generator_empty.info,
+        &generator_cubes.info, &generator_teapots.info, &generator_stadium.info,
+        &generator_soup.info,  &generator_spheres.info, &generator_nested.info,
+        &generator_same.info,  &generator_one.info,     &generator_empty.info,
     };
     *count = GENERATORS;
     return kinds;
@@ -39,7 +38,7 @@ static bool same_word(const char *text, size_t length, const char *word)
     return strlen(word) == length && memcmp(text, word, length) == 0;
 }
 
-static const accel_generator *find_generator(const char *name, size_t length)
+static const struct generator *find_generator(const char *name, size_t length)
 {
     for (size_t i = 0; i < GENERATORS; i++) {
         if (same_word(name, length, generators[i]->info.name)) {
@@ -59,7 +58,7 @@ static bool read_option(const accel_kind_info *info, const char *text, size_t le
     size_t distance = SIZE_MAX;
     size_t i = 0;
     while (i < info->option_count && !same_word(text, key_length, info->options[i].key)) {
-        accel_nearest_offer(text, key_length, info->options[i].key, &nearest, &distance);
+        nearest_offer(text, key_length, info->options[i].key, &nearest, &distance);
         i++;
     }
     if (i == info->option_count) {
@@ -76,7 +75,7 @@ static bool read_option(const accel_kind_info *info, const char *text, size_t le
     const char *value = equals == NULL ? "" : equals + 1;
     const size_t value_length = equals == NULL ? 0 : length - key_length - 1;
     double number = 0.0;
-    if ((*seen & 1u << i) != 0 || !accel_read_number(value, value_length, &number) ||
+    if ((*seen & 1u << i) != 0 || !read_number(value, value_length, &number) ||
         !(number >= option->min && number <= option->max) ||
         (option->whole && number != floor(number))) {
         snprintf(error->text, sizeof error->text,
@@ -147,7 +146,7 @@ static void say_unknown(const char *name, size_t length, accel_error *error)
     const char *nearest = NULL;
     size_t distance = SIZE_MAX;
     for (size_t i = 0; i < GENERATORS; i++) {
-        accel_nearest_offer(name, length, generators[i]->info.name, &nearest, &distance);
+        nearest_offer(name, length, generators[i]->info.name, &nearest, &distance);
     }
     snprintf(error->text, sizeof error->text,
              "scene '%.*s' is neither a file nor a built-in scene; %s%s; nothing was loaded",
@@ -158,8 +157,8 @@ static void say_unknown(const char *name, size_t length, accel_error *error)
 
 /* What a SCENE means. */
 typedef struct meaning {
-    const accel_generator *generator; /* NULL: a file */
-    double values[MOST_OPTIONS];      /* of its options */
+    const struct generator *generator; /* NULL: a file */
+    double values[MOST_OPTIONS];       /* of its options */
 } meaning;
 
 static bool understand(meaning *m, const char *name, accel_error *error)
@@ -177,27 +176,27 @@ static bool understand(meaning *m, const char *name, accel_error *error)
     return true;
 }
 
-bool accel_scene_understood(const char *name, accel_error *error)
+bool scene_understood(const char *name, accel_error *error)
 {
     meaning m;
-    return understand(&m, name, error) && (m.generator != NULL || accel_file_there(name, error));
+    return understand(&m, name, error) && (m.generator != NULL || file_there(name, error));
 }
 
-bool accel_load_scene(accel_loaded *out, const char *name, accel_load_progress *progress,
-                      void *user, accel_error *error)
+bool load_scene(struct loaded *out, const char *name, load_progress *progress, void *user,
+                accel_error *error)
 {
-    *out = (accel_loaded){0};
+    *out = (struct loaded){0};
     meaning m;
     if (!understand(&m, name, error)) {
         return false;
     }
     if (m.generator == NULL) {
-        return accel_load_file(out, name, progress, user, error);
+        return load_file(out, name, progress, user, error);
     }
     if (m.generator->generate(out, m.values)) {
         return true;
     }
-    accel_unload_scene(out);
+    unload_scene(out);
     snprintf(error->text, sizeof error->text, "scene %s: out of memory; nothing was made",
              m.generator->info.name);
     error->status = ACCEL_NO_MEMORY;

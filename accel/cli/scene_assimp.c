@@ -97,19 +97,19 @@ static void send_vertices(FILE *pipe, const placed *item)
             const double *row = item->to_scene[k];
             q[k] = as_it_is ? p[k] : row[0] * p[0] + row[1] * p[1] + row[2] * p[2] + row[3];
         }
-        accel_child_write(pipe, q, sizeof q);
+        child_write(pipe, q, sizeof q);
     }
 }
 
 static void send_geometry(FILE *pipe, const placed *item)
 {
-    const accel_file_head head = {item->mesh->mNumVertices, count_triangles(item->mesh)};
-    accel_child_write(pipe, &head, sizeof head);
+    const struct file_head head = {item->mesh->mNumVertices, count_triangles(item->mesh)};
+    child_write(pipe, &head, sizeof head);
     send_vertices(pipe, item);
     for (unsigned i = 0; i < item->mesh->mNumFaces; i++) {
         const struct aiFace *face = &item->mesh->mFaces[i];
         if (face->mNumIndices == 3) {
-            accel_child_write(pipe, face->mIndices, 3 * sizeof(uint32_t));
+            child_write(pipe, face->mIndices, 3 * sizeof(uint32_t));
         }
     }
 }
@@ -126,13 +126,13 @@ static uint64_t count_left_out(const placed_list *list)
 
 static void send_trouble(FILE *pipe, const char *trouble)
 {
-    accel_file_verdict verdict = {{0}, 0, 0};
+    struct file_verdict verdict = {{0}, 0, 0};
     snprintf(verdict.trouble, sizeof verdict.trouble, "%s", trouble);
     /* assimp quotes the file */
     for (char *c = verdict.trouble; *c != '\0'; c++) {
         *c = isprint((unsigned char)*c) ? *c : '?';
     }
-    accel_child_write(pipe, &verdict, sizeof verdict);
+    child_write(pipe, &verdict, sizeof verdict);
 }
 
 static void send_scene(FILE *pipe, const struct aiScene *scene, uint64_t most)
@@ -155,18 +155,18 @@ static void send_scene(FILE *pipe, const struct aiScene *scene, uint64_t most)
         send_trouble(pipe, text);
         return;
     }
-    const accel_file_verdict verdict = {"", count_left_out(&list), (uint32_t)list.count};
-    accel_child_write(pipe, &verdict, sizeof verdict);
+    const struct file_verdict verdict = {"", count_left_out(&list), (uint32_t)list.count};
+    child_write(pipe, &verdict, sizeof verdict);
     for (size_t i = 0; i < list.count; i++) {
         send_geometry(pipe, &list.items[i]);
     }
 }
 
-void accel_file_import(void *user, FILE *pipe)
+void file_import(void *user, FILE *pipe)
 {
-    accel_import_file *import = user;
+    struct import_file *import = user;
     struct aiFileIO io = {
-        .OpenProc = accel_file_open, .CloseProc = accel_file_close, .UserData = (char *)import};
+        .OpenProc = file_open, .CloseProc = file_close, .UserData = (char *)import};
     const struct aiScene *scene = aiImportFileEx(import->file.path, aiProcess_Triangulate, &io);
     if (scene == NULL) {
         send_trouble(pipe, aiGetErrorString());

@@ -19,12 +19,12 @@ static void *make_room(void *block, size_t count, size_t more, size_t size, size
     void *grown = realloc(block, wanted * size);
     if (grown != NULL) {
         *room = wanted;
-        accel_memory_large_pages(grown, wanted * size);
+        memory_large_pages(grown, wanted * size);
     }
     return grown;
 }
 
-static void grow_numbers(accel_growing *grown, const double *numbers, size_t count)
+static void grow_numbers(struct growing *grown, const double *numbers, size_t count)
 {
     if (grown->failed) {
         return;
@@ -41,18 +41,18 @@ static void grow_numbers(accel_growing *grown, const double *numbers, size_t cou
     grown->number_count += count;
 }
 
-uint32_t accel_grow_vertex(accel_growing *mesh, double x, double y, double z)
+uint32_t grow_vertex(struct growing *mesh, double x, double y, double z)
 {
     grow_numbers(mesh, (const double[3]){x, y, z}, 3);
     return (uint32_t)(mesh->number_count / 3 - 1);
 }
 
-void accel_grow_sphere(accel_growing *spheres, double x, double y, double z, double radius)
+void grow_sphere(struct growing *spheres, double x, double y, double z, double radius)
 {
     grow_numbers(spheres, (const double[4]){x, y, z, radius}, 4);
 }
 
-void accel_grow_triangle(accel_growing *mesh, uint32_t a, uint32_t b, uint32_t c)
+void grow_triangle(struct growing *mesh, uint32_t a, uint32_t b, uint32_t c)
 {
     if (mesh->failed) {
         return;
@@ -70,7 +70,7 @@ void accel_grow_triangle(accel_growing *mesh, uint32_t a, uint32_t b, uint32_t c
     mesh->index_count += 3;
 }
 
-static accel_geometry as_geometry(accel_type type, const accel_growing *grown)
+static accel_geometry as_geometry(accel_type type, const struct growing *grown)
 {
     accel_geometry geometry = {.type = type};
     if (type == ACCEL_TRIANGLES) {
@@ -85,7 +85,7 @@ static accel_geometry as_geometry(accel_type type, const accel_growing *grown)
     return geometry;
 }
 
-bool accel_loaded_add(accel_loaded *out, accel_type type, accel_growing *grown)
+bool loaded_add(struct loaded *out, accel_type type, struct growing *grown)
 {
     const size_t count = out->scene.count;
     accel_geometry *block =
@@ -99,11 +99,11 @@ bool accel_loaded_add(accel_loaded *out, accel_type type, accel_growing *grown)
         out->scene.geometries = block;
         out->scene.count++;
     }
-    *grown = (accel_growing){0};
+    *grown = (struct growing){0};
     return block != NULL;
 }
 
-void accel_unload_scene(accel_loaded *loaded)
+void unload_scene(struct loaded *loaded)
 {
     for (uint32_t g = 0; g < loaded->scene.count; g++) {
         const accel_geometry *geometry = &loaded->geometries[g];
@@ -115,10 +115,10 @@ void accel_unload_scene(accel_loaded *loaded)
         }
     }
     free(loaded->geometries);
-    *loaded = (accel_loaded){0};
+    *loaded = (struct loaded){0};
 }
 
-uint64_t accel_scene_primitives(const accel_scene *scene)
+uint64_t scene_primitives(const accel_scene *scene)
 {
     uint64_t total = 0;
     for (uint32_t g = 0; g < scene->count; g++) {
@@ -130,7 +130,7 @@ uint64_t accel_scene_primitives(const accel_scene *scene)
     return total;
 }
 
-void accel_scene_vertex(const accel_triangles *mesh, uint32_t prim, int corner, double out[3])
+void scene_vertex(const accel_triangles *mesh, uint32_t prim, int corner, double out[3])
 {
     const size_t size = mesh->vertices_are_float ? sizeof(float) : sizeof(double);
     const size_t stride = mesh->vertex_stride == 0 ? 3 * size : mesh->vertex_stride;
@@ -147,7 +147,7 @@ void accel_scene_vertex(const accel_triangles *mesh, uint32_t prim, int corner, 
     }
 }
 
-const double *accel_scene_sphere(const accel_spheres *spheres, uint32_t prim)
+const double *scene_sphere(const accel_spheres *spheres, uint32_t prim)
 {
     const size_t stride = spheres->stride == 0 ? 4 * sizeof(double) : spheres->stride;
     return (const double *)(const void *)((const char *)spheres->spheres + prim * stride);
@@ -172,19 +172,19 @@ static void box_add_geometry(accel_box *box, const accel_geometry *geometry)
         for (uint32_t i = 0; i < geometry->triangles.count; i++) {
             for (int corner = 0; corner < 3; corner++) {
                 double vertex[3];
-                accel_scene_vertex(&geometry->triangles, i, corner, vertex);
+                scene_vertex(&geometry->triangles, i, corner, vertex);
                 box_add(box, vertex, 0.0);
             }
         }
     } else if (geometry->type == ACCEL_SPHERES) {
         for (uint32_t i = 0; i < geometry->spheres.count; i++) {
-            const double *sphere = accel_scene_sphere(&geometry->spheres, i);
+            const double *sphere = scene_sphere(&geometry->spheres, i);
             box_add(box, sphere, sphere[3]);
         }
     }
 }
 
-bool accel_scene_box(const accel_scene *scene, accel_box *box)
+bool scene_box(const accel_scene *scene, accel_box *box)
 {
     *box = (accel_box){{(double)INFINITY, (double)INFINITY, (double)INFINITY},
                        {-(double)INFINITY, -(double)INFINITY, -(double)INFINITY}};

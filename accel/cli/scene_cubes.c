@@ -33,20 +33,20 @@ static const uint32_t faces[12][3] = {
     {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5},
 };
 
-static void add_cube(accel_growing *mesh, const double at[3])
+static void add_cube(struct growing *mesh, const double at[3])
 {
     uint32_t first = 0;
     for (int corner = 0; corner < 8; corner++) {
-        const uint32_t vertex = accel_grow_vertex(
-            mesh, at[0] + (corner & 1), at[1] + (corner >> 1 & 1), at[2] + (corner >> 2 & 1));
+        const uint32_t vertex = grow_vertex(mesh, at[0] + (corner & 1), at[1] + (corner >> 1 & 1),
+                                            at[2] + (corner >> 2 & 1));
         first = corner == 0 ? vertex : first;
     }
     for (int i = 0; i < 12; i++) {
-        accel_grow_triangle(mesh, first + faces[i][0], first + faces[i][1], first + faces[i][2]);
+        grow_triangle(mesh, first + faces[i][0], first + faces[i][1], first + faces[i][2]);
     }
 }
 
-static void add_cluster(accel_growing *mesh, int per_side, double from_x, double pitch)
+static void add_cluster(struct growing *mesh, int per_side, double from_x, double pitch)
 {
     for (int x = 0; x < per_side; x++) {
         for (int y = 0; y < per_side; y++) {
@@ -57,18 +57,18 @@ static void add_cluster(accel_growing *mesh, int per_side, double from_x, double
     }
 }
 
-static bool generate(accel_loaded *out, const double *values)
+static bool generate(struct loaded *out, const double *values)
 {
     const double pitch = 1.0 + values[1];
     const int per_side = (int)values[2];
     const double side = (per_side - 1) * pitch + 1.0;
-    accel_growing mesh = {0};
+    struct growing mesh = {0};
     add_cluster(&mesh, per_side, 0.0, pitch);
     add_cluster(&mesh, per_side, side * (1.0 + values[0]), pitch);
-    return accel_loaded_add(out, ACCEL_TRIANGLES, &mesh);
+    return loaded_add(out, ACCEL_TRIANGLES, &mesh);
 }
 
-const accel_generator accel_generator_cubes = {
+const struct generator generator_cubes = {
     .info = {.name = "cubes",
              .summary = "two clusters of 8 x 8 x 8 cubes, 12,288 triangles (the paper's figure 3)",
              .options = options,

@@ -11,7 +11,7 @@
 /* An open file: bytes and a place in them. */
 typedef struct door {
     struct aiFile file; /* what assimp sees; its UserData is this door */
-    accel_file bytes;   /* of the mesh file */
+    struct file bytes;  /* of the mesh file */
     size_t at;          /* of the next byte */
 } door;
 
@@ -64,9 +64,9 @@ static void door_flush(struct aiFile *file)
     (void)file;
 }
 
-struct aiFile *accel_file_open(struct aiFileIO *io, const char *path, const char *mode)
+struct aiFile *file_open(struct aiFileIO *io, const char *path, const char *mode)
 {
-    const accel_import_file *import = (const accel_import_file *)(void *)io->UserData;
+    const struct import_file *import = (const struct import_file *)(void *)io->UserData;
     const bool own = strchr(mode, 'r') != NULL && strcmp(path, import->file.path) == 0;
     door *d = own ? calloc(1, sizeof *d) : NULL;
     if (d == NULL) {
@@ -83,7 +83,7 @@ struct aiFile *accel_file_open(struct aiFileIO *io, const char *path, const char
     return &d->file;
 }
 
-void accel_file_close(struct aiFileIO *io, struct aiFile *file)
+void file_close(struct aiFileIO *io, struct aiFile *file)
 {
     (void)io;
     free(door_of(file));

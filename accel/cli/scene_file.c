@@ -27,7 +27,7 @@ static unsigned seconds_for(size_t file_bytes)
     return 60 + (unsigned)(file_bytes / 200000);
 }
 
-static bool indices_are_fine(const accel_growing *mesh)
+static bool indices_are_fine(const struct growing *mesh)
 {
     for (size_t i = 0; i < mesh->index_count; i++) {
         if (mesh->indices[i] >= mesh->number_count / 3) {
@@ -38,21 +38,21 @@ static bool indices_are_fine(const accel_growing *mesh)
 }
 
 /* Takes one geometry from the child. Returns NULL, or what is wrong. */
-static const char *receive_geometry(accel_child *child, accel_loaded *out)
+static const char *receive_geometry(struct child *child, struct loaded *out)
 {
-    accel_file_head head;
-    if (!accel_child_read(child, &head, sizeof head)) {
+    struct file_head head;
+    if (!child_read(child, &head, sizeof head)) {
         return "its reader ended early";
     }
-    accel_growing mesh = {.number_count = 3 * (size_t)head.vertices,
-                          .index_count = 3 * (size_t)head.triangles};
+    struct growing mesh = {.number_count = 3 * (size_t)head.vertices,
+                           .index_count = 3 * (size_t)head.triangles};
     mesh.numbers = malloc(mesh.number_count * sizeof *mesh.numbers + 1);
     mesh.indices = malloc(mesh.index_count * sizeof *mesh.indices + 1);
     const char *trouble = NULL;
     if (mesh.numbers == NULL || mesh.indices == NULL) {
         trouble = "does not fit into memory";
-    } else if (!accel_child_read(child, mesh.numbers, mesh.number_count * sizeof *mesh.numbers) ||
-               !accel_child_read(child, mesh.indices, mesh.index_count * sizeof *mesh.indices)) {
+    } else if (!child_read(child, mesh.numbers, mesh.number_count * sizeof *mesh.numbers) ||
+               !child_read(child, mesh.indices, mesh.index_count * sizeof *mesh.indices)) {
         trouble = "its reader ended early";
     } else if (!indices_are_fine(&mesh)) {
         trouble = "a face refers to a vertex that is not there";
@@ -63,15 +63,15 @@ static const char *receive_geometry(accel_child *child, accel_loaded *out)
         return NULL;
     }
     mesh.failed = trouble != NULL;
-    if (!accel_loaded_add(out, ACCEL_TRIANGLES, &mesh) && trouble == NULL) {
+    if (!loaded_add(out, ACCEL_TRIANGLES, &mesh) && trouble == NULL) {
         trouble = "does not fit into memory";
     }
     return trouble;
 }
 
-static const char *receive(accel_child *child, accel_loaded *out, accel_file_verdict *verdict)
+static const char *receive(struct child *child, struct loaded *out, struct file_verdict *verdict)
 {
-    if (!accel_child_read(child, verdict, sizeof *verdict)) {
+    if (!child_read(child, verdict, sizeof *verdict)) {
         return "its reader ended early";
     }
     verdict->trouble[sizeof verdict->trouble - 1] = '\0';
@@ -83,35 +83,34 @@ static const char *receive(accel_child *child, accel_loaded *out, accel_file_ver
         trouble = receive_geometry(child, out);
     }
     out->left_out = verdict->left_out;
-    return trouble == NULL && accel_scene_primitives(&out->scene) == 0 ? "holds no triangle"
-                                                                       : trouble;
+    return trouble == NULL && scene_primitives(&out->scene) == 0 ? "holds no triangle" : trouble;
 }
 
-static bool import(accel_loaded *out, const accel_file *file, accel_load_progress *progress,
-                   void *user, accel_error *error)
+static bool import(struct loaded *out, const struct file *file, load_progress *progress, void *user,
+                   accel_error *error)
 {
-    accel_child child;
-    accel_import_file import = {*file, accel_memory_free()};
-    const accel_child_limits limits = {memory_for(file->size), seconds_for(file->size)};
-    if (!accel_child_start(&child, limits, accel_file_import, &import)) {
-        return accel_file_fail(file->path, "no process for its reader", error);
+    struct child child;
+    struct import_file import = {*file, memory_free()};
+    const struct child_limits limits = {memory_for(file->size), seconds_for(file->size)};
+    if (!child_start(&child, limits, file_import, &import)) {
+        return file_fail(file->path, "no process for its reader", error);
     }
     child.tick = progress;
     child.user = user;
-    accel_file_verdict verdict;
+    struct file_verdict verdict;
     const char *trouble = receive(&child, out, &verdict);
-    const char *end = accel_child_end(&child);
+    const char *end = child_end(&child);
     /* a child that died explains more than the bytes that are missing */
     trouble = trouble != NULL && end != NULL ? end : trouble;
     snprintf(out->note, sizeof out->note,
              "is read by assimp, unchecked, with coordinates as float");
-    return trouble == NULL || accel_file_fail(file->path, trouble, error);
+    return trouble == NULL || file_fail(file->path, trouble, error);
 }
 
 /* What the readers of this command are given beside the bytes. */
 typedef struct reading {
     const char *path; /* of the mesh file */
-    accel_load_progress *progress;
+    load_progress *progress;
     void *user;
 } reading;
 
@@ -124,7 +123,7 @@ static void show_reading(void *user, const char *phase)
 }
 
 /* Reads a file in the folder of the mesh file. */
-static bool read_beside(void *user, accel_file *file, const char *name, accel_error *error)
+static bool read_beside(void *user, struct file *file, const char *name, accel_error *error)
 {
     const char *path = ((const reading *)user)->path;
     const char *slash = strrchr(path, '/');
@@ -132,39 +131,39 @@ static bool read_beside(void *user, accel_file *file, const char *name, accel_er
     const size_t room = folder + strlen(name) + 1;
     char *other = malloc(room);
     if (other == NULL) {
-        return accel_file_fail(path, "does not fit into memory", error);
+        return file_fail(path, "does not fit into memory", error);
     }
     snprintf(other, room, "%.*s%s", (int)folder, path, name);
-    const bool fine = accel_file_read(file, other, error);
+    const bool fine = file_read(file, other, error);
     free(other);
     return fine;
 }
 
-static bool read_mesh(accel_loaded *out, const accel_file *file, accel_load_progress *progress,
+static bool read_mesh(struct loaded *out, const struct file *file, load_progress *progress,
                       void *user, accel_error *error)
 {
     reading reading = {file->path, progress, user};
-    const accel_mesh_source source = {.name = file->path,
-                                      .bytes = file->bytes,
-                                      .size = file->size,
-                                      .memory = accel_memory_free(),
-                                      .beside = read_beside,
-                                      .progress = show_reading,
-                                      .user = &reading};
-    return accel_mesh_read(out, &source, error);
+    const struct mesh_source source = {.name = file->path,
+                                       .bytes = file->bytes,
+                                       .size = file->size,
+                                       .memory = memory_free(),
+                                       .beside = read_beside,
+                                       .progress = show_reading,
+                                       .user = &reading};
+    return mesh_load(out, &source, error);
 }
 
-bool accel_load_file(accel_loaded *out, const char *path, accel_load_progress *progress, void *user,
-                     accel_error *error)
+bool load_file(struct loaded *out, const char *path, load_progress *progress, void *user,
+               accel_error *error)
 {
-    accel_file file;
-    if (!accel_file_read(&file, path, error)) {
+    struct file file;
+    if (!file_read(&file, path, error)) {
         return false;
     }
-    const bool own = accel_mesh_recognise(path, file.bytes, file.size) != ACCEL_MESH_OTHER;
+    const bool own = mesh_recognise(path, file.bytes, file.size) != MESH_OTHER;
     const bool fine = (own ? read_mesh : import)(out, &file, progress, user, error);
     if (!fine) {
-        accel_unload_scene(out);
+        unload_scene(out);
     }
     free(file.bytes);
     return fine;

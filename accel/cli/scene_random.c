@@ -32,54 +32,54 @@ static const accel_option spheres_options[] = {
     OPTION_SEED,
 };
 
-static double log_uniform(accel_random *random, double min, double max)
+static double log_uniform(struct random *random, double min, double max)
 {
-    return exp(accel_random_in(random, log(min), log(max)));
+    return exp(random_in(random, log(min), log(max)));
 }
 
-static uint32_t vertex_near(accel_growing *mesh, accel_random *random, const double centre[3],
+static uint32_t vertex_near(struct growing *mesh, struct random *random, const double centre[3],
                             double size)
 {
     double at[3];
     for (int k = 0; k < 3; k++) {
-        at[k] = centre[k] + size * (accel_random_unit(random) - 0.5);
+        at[k] = centre[k] + size * (random_unit(random) - 0.5);
     }
-    return accel_grow_vertex(mesh, at[0], at[1], at[2]);
+    return grow_vertex(mesh, at[0], at[1], at[2]);
 }
 
-static bool generate_soup(accel_loaded *out, const double *values)
+static bool generate_soup(struct loaded *out, const double *values)
 {
-    accel_growing mesh = {0};
+    struct growing mesh = {0};
     for (uint64_t i = 0; i < (uint64_t)values[0] && !mesh.failed; i++) {
-        accel_random random = accel_random_start((uint64_t)values[3], STREAM_SOUP, i);
+        struct random random = random_start((uint64_t)values[3], STREAM_SOUP, i);
         const double size = log_uniform(&random, values[1], values[2]);
         double centre[3];
         for (int k = 0; k < 3; k++) {
-            centre[k] = accel_random_unit(&random);
+            centre[k] = random_unit(&random);
         }
         const uint32_t a = vertex_near(&mesh, &random, centre, size);
         const uint32_t b = vertex_near(&mesh, &random, centre, size);
         const uint32_t c = vertex_near(&mesh, &random, centre, size);
-        accel_grow_triangle(&mesh, a, b, c);
+        grow_triangle(&mesh, a, b, c);
     }
-    return accel_loaded_add(out, ACCEL_TRIANGLES, &mesh);
+    return loaded_add(out, ACCEL_TRIANGLES, &mesh);
 }
 
-static bool generate_spheres(accel_loaded *out, const double *values)
+static bool generate_spheres(struct loaded *out, const double *values)
 {
-    accel_growing spheres = {0};
+    struct growing spheres = {0};
     for (uint64_t i = 0; i < (uint64_t)values[0] && !spheres.failed; i++) {
-        accel_random random = accel_random_start((uint64_t)values[3], STREAM_SPHERES, i);
+        struct random random = random_start((uint64_t)values[3], STREAM_SPHERES, i);
         const double radius = log_uniform(&random, values[1], values[2]);
-        const double x = accel_random_unit(&random);
-        const double y = accel_random_unit(&random);
-        const double z = accel_random_unit(&random);
-        accel_grow_sphere(&spheres, x, y, z, radius);
+        const double x = random_unit(&random);
+        const double y = random_unit(&random);
+        const double z = random_unit(&random);
+        grow_sphere(&spheres, x, y, z, radius);
     }
-    return accel_loaded_add(out, ACCEL_SPHERES, &spheres);
+    return loaded_add(out, ACCEL_SPHERES, &spheres);
 }
 
-const accel_generator accel_generator_soup = {
+const struct generator generator_soup = {
     .info = {.name = "soup",
              .summary = "random triangles in the unit cube, sizes uniform on a log scale",
              .options = soup_options,
@@ -87,7 +87,7 @@ const accel_generator accel_generator_soup = {
     .generate = generate_soup,
 };
 
-const accel_generator accel_generator_spheres = {
+const struct generator generator_spheres = {
     .info = {.name = "spheres",
              .summary = "random spheres in the unit cube, radii uniform on a log scale",
              .options = spheres_options,

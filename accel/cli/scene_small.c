@@ -23,48 +23,48 @@ static const accel_option nested_options[] = {
 };
 
 /* `count` times the triangle (0,0,0) (1,0,0) (0,1,0), each with vertices of its own. */
-static bool add_same(accel_loaded *out, uint64_t count)
+static bool add_same(struct loaded *out, uint64_t count)
 {
-    accel_growing mesh = {0};
+    struct growing mesh = {0};
     for (uint64_t i = 0; i < count && !mesh.failed; i++) {
-        const uint32_t a = accel_grow_vertex(&mesh, 0.0, 0.0, 0.0);
-        const uint32_t b = accel_grow_vertex(&mesh, 1.0, 0.0, 0.0);
-        const uint32_t c = accel_grow_vertex(&mesh, 0.0, 1.0, 0.0);
-        accel_grow_triangle(&mesh, a, b, c);
+        const uint32_t a = grow_vertex(&mesh, 0.0, 0.0, 0.0);
+        const uint32_t b = grow_vertex(&mesh, 1.0, 0.0, 0.0);
+        const uint32_t c = grow_vertex(&mesh, 0.0, 1.0, 0.0);
+        grow_triangle(&mesh, a, b, c);
     }
-    return accel_loaded_add(out, ACCEL_TRIANGLES, &mesh);
+    return loaded_add(out, ACCEL_TRIANGLES, &mesh);
 }
 
-static bool generate_same(accel_loaded *out, const double *values)
+static bool generate_same(struct loaded *out, const double *values)
 {
     return add_same(out, (uint64_t)values[0]);
 }
 
-static bool generate_one(accel_loaded *out, const double *values)
+static bool generate_one(struct loaded *out, const double *values)
 {
     (void)values;
     return add_same(out, 1);
 }
 
-static bool generate_empty(accel_loaded *out, const double *values)
+static bool generate_empty(struct loaded *out, const double *values)
 {
     (void)values;
     return add_same(out, 0);
 }
 
 /* All touch the origin from the same side, so that their centres differ as well. */
-static bool generate_nested(accel_loaded *out, const double *values)
+static bool generate_nested(struct loaded *out, const double *values)
 {
-    accel_growing spheres = {0};
+    struct growing spheres = {0};
     double radius = 1.0;
     for (int i = 0; i < (int)values[0]; i++) {
-        accel_grow_sphere(&spheres, radius, 0.0, 0.0, radius);
+        grow_sphere(&spheres, radius, 0.0, 0.0, radius);
         radius *= 0.5;
     }
-    return accel_loaded_add(out, ACCEL_SPHERES, &spheres);
+    return loaded_add(out, ACCEL_SPHERES, &spheres);
 }
 
-const accel_generator accel_generator_same = {
+const struct generator generator_same = {
     .info = {.name = "same",
              .summary = "triangles that all lie at one place",
              .options = same_options,
@@ -72,7 +72,7 @@ const accel_generator accel_generator_same = {
     .generate = generate_same,
 };
 
-const accel_generator accel_generator_nested = {
+const struct generator generator_nested = {
     .info = {.name = "nested",
              .summary = "spheres within spheres, each half as large, touching at one point",
              .options = nested_options,
@@ -80,12 +80,12 @@ const accel_generator accel_generator_nested = {
     .generate = generate_nested,
 };
 
-const accel_generator accel_generator_one = {
+const struct generator generator_one = {
     .info = {.name = "one", .summary = "one triangle"},
     .generate = generate_one,
 };
 
-const accel_generator accel_generator_empty = {
+const struct generator generator_empty = {
     .info = {.name = "empty", .summary = "no primitive at all"},
     .generate = generate_empty,
 };

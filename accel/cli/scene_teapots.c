@@ -39,30 +39,30 @@ static double patch_coordinate(int patch, int axis, int i, int j, int n)
     for (int row = 0; row < 4; row++) {
         double b[4];
         for (int column = 0; column < 4; column++) {
-            const int point = accel_teapot_patches[patch][4 * row + column] - 1;
-            b[column] = accel_teapot_points[point][axis];
+            const int point = teapot_patches[patch][4 * row + column] - 1;
+            b[column] = teapot_points[point][axis];
         }
         across[row] = curve(b, j, n);
     }
     return curve(across, i, n);
 }
 
-static bool same_point(const accel_growing *mesh, uint32_t a, uint32_t b)
+static bool same_point(const struct growing *mesh, uint32_t a, uint32_t b)
 {
     return memcmp(mesh->numbers + 3 * (size_t)a, mesh->numbers + 3 * (size_t)b,
                   3 * sizeof(double)) == 0;
 }
 
-static void add_if_it_has_area(accel_growing *mesh, uint32_t a, uint32_t b, uint32_t c)
+static void add_if_it_has_area(struct growing *mesh, uint32_t a, uint32_t b, uint32_t c)
 {
     if (!mesh->failed && !same_point(mesh, a, b) && !same_point(mesh, b, c) &&
         !same_point(mesh, c, a)) {
-        accel_grow_triangle(mesh, a, b, c);
+        grow_triangle(mesh, a, b, c);
     }
 }
 
 /* The two triangles of each cell of an (n + 1) x (m + 1) lattice of vertices from `first` on. */
-static void add_lattice(accel_growing *mesh, uint32_t first, uint32_t n, uint32_t m)
+static void add_lattice(struct growing *mesh, uint32_t first, uint32_t n, uint32_t m)
 {
     for (uint32_t i = 0; i < n; i++) {
         for (uint32_t j = 0; j < m; j++) {
@@ -79,7 +79,7 @@ static double plus_zero(double x)
     return x == 0.0 ? 0.0 : x;
 }
 
-static void add_patch(accel_growing *mesh, int patch, int n, const double at[3], double scale)
+static void add_patch(struct growing *mesh, int patch, int n, const double at[3], double scale)
 {
     const size_t first = mesh->number_count / 3;
     for (int i = 0; i <= n; i++) {
@@ -87,37 +87,37 @@ static void add_patch(accel_growing *mesh, int patch, int n, const double at[3],
             const double x = patch_coordinate(patch, 0, i, j, n);
             const double y = patch_coordinate(patch, 1, i, j, n);
             const double z = patch_coordinate(patch, 2, i, j, n);
-            accel_grow_vertex(mesh, at[0] + plus_zero(scale * x), at[1] + plus_zero(scale * z),
-                              at[2] + plus_zero(-scale * y));
+            grow_vertex(mesh, at[0] + plus_zero(scale * x), at[1] + plus_zero(scale * z),
+                        at[2] + plus_zero(-scale * y));
         }
     }
     add_lattice(mesh, (uint32_t)first, (uint32_t)n, (uint32_t)n);
 }
 
-static bool add_teapot(accel_loaded *out, int quads, const double at[3], double scale)
+static bool add_teapot(struct loaded *out, int quads, const double at[3], double scale)
 {
-    accel_growing mesh = {0};
-    for (int patch = 0; patch < ACCEL_TEAPOT_PATCHES; patch++) {
+    struct growing mesh = {0};
+    for (int patch = 0; patch < TEAPOT_PATCHES; patch++) {
         add_patch(&mesh, patch, quads, at, scale);
     }
-    return accel_loaded_add(out, ACCEL_TRIANGLES, &mesh);
+    return loaded_add(out, ACCEL_TRIANGLES, &mesh);
 }
 
 /* A floor around the origin at y = 0, `side` x `side` quads. */
-static bool add_floor(accel_loaded *out, int side, double width, double depth)
+static bool add_floor(struct loaded *out, int side, double width, double depth)
 {
-    accel_growing mesh = {0};
+    struct growing mesh = {0};
     for (int i = 0; i <= side; i++) {
         for (int j = 0; j <= side; j++) {
-            accel_grow_vertex(&mesh, width * ((double)i / side - 0.5), 0.0,
-                              depth * ((double)j / side - 0.5));
+            grow_vertex(&mesh, width * ((double)i / side - 0.5), 0.0,
+                        depth * ((double)j / side - 0.5));
         }
     }
     add_lattice(&mesh, 0, (uint32_t)side, (uint32_t)side);
-    return accel_loaded_add(out, ACCEL_TRIANGLES, &mesh);
+    return loaded_add(out, ACCEL_TRIANGLES, &mesh);
 }
 
-static bool generate_teapots(accel_loaded *out, const double *values)
+static bool generate_teapots(struct loaded *out, const double *values)
 {
     const int quads = (int)values[0];
     bool fine = true;
@@ -130,22 +130,22 @@ static bool generate_teapots(accel_loaded *out, const double *values)
 }
 
 /* Terraces from radius 250 to 500, rising to 150: large quads far around the small teapot. */
-static bool add_terraces(accel_loaded *out)
+static bool add_terraces(struct loaded *out)
 {
-    accel_growing mesh = {0};
+    struct growing mesh = {0};
     for (int row = 0; row <= SEAT_ROWS; row++) {
         for (int seat = 0; seat <= SEATS; seat++) {
             const double angle = 6.283185307179586 * (seat % SEATS) / SEATS;
             const double radius = 250.0 + 500.0 * ((row + 1) / 2) / SEAT_ROWS;
             const double height = 300.0 * (row / 2) / SEAT_ROWS;
-            accel_grow_vertex(&mesh, radius * cos(angle), height, radius * sin(angle));
+            grow_vertex(&mesh, radius * cos(angle), height, radius * sin(angle));
         }
     }
     add_lattice(&mesh, 0, SEAT_ROWS, SEATS);
-    return accel_loaded_add(out, ACCEL_TRIANGLES, &mesh);
+    return loaded_add(out, ACCEL_TRIANGLES, &mesh);
 }
 
-static bool generate_stadium(accel_loaded *out, const double *values)
+static bool generate_stadium(struct loaded *out, const double *values)
 {
     /* a teapot is 6.43 long: 1e-3 of the stadium's 1000 is one unit */
     const double at[3] = {0.0, 0.01, 0.0};
@@ -176,7 +176,7 @@ static const accel_option stadium_options[] = {
      .whole = true},
 };
 
-const accel_generator accel_generator_teapots = {
+const struct generator generator_teapots = {
     .info = {.name = "teapots",
              .summary = "nine Utah teapots and a floor, 49,370 triangles (the paper's figure 5)",
              .options = teapots_options,
@@ -184,7 +184,7 @@ const accel_generator accel_generator_teapots = {
     .generate = generate_teapots,
 };
 
-const accel_generator accel_generator_stadium = {
+const struct generator generator_stadium = {
     .info = {.name = "stadium",
              .summary = "a teapot of 101,760 triangles, 1 wide, in a stadium 1000 wide",
              .options = stadium_options,

@@ -37,7 +37,7 @@ static bool triangles_fit(const accel_triangles *mesh, uint32_t geometry, double
     for (uint32_t prim = 0; prim < mesh->count; prim++) {
         for (int corner = 0; corner < 3; corner++) {
             double at[3];
-            accel_scene_vertex(mesh, prim, corner, at);
+            scene_vertex(mesh, prim, corner, at);
             if (!(fabs(at[0]) <= limit && fabs(at[1]) <= limit && fabs(at[2]) <= limit)) {
                 snprintf(error->text, sizeof error->text,
                          "geometry %" PRIu32 ", triangle %" PRIu32 " has a coordinate that is not "
@@ -50,9 +50,9 @@ static bool triangles_fit(const accel_triangles *mesh, uint32_t geometry, double
     return true;
 }
 
-bool accel_sdl_fits(const accel_scene *scene, accel_sdl_form form, accel_error *error)
+bool sdl_fits(const accel_scene *scene, enum sdl_form form, accel_error *error)
 {
-    const double limit = form == ACCEL_SDL_MESH2 ? (double)FLT_MAX : DBL_MAX;
+    const double limit = form == SDL_MESH2 ? (double)FLT_MAX : DBL_MAX;
     for (uint32_t i = 0; i < scene->count; i++) {
         if (scene->geometries[i].type != ACCEL_TRIANGLES) {
             snprintf(error->text, sizeof error->text,
@@ -93,7 +93,7 @@ static void vertex_at(const accel_triangles *mesh, uint32_t vertex, double out[3
                                    .vertex_count = mesh->vertex_count,
                                    .indices = (const uint32_t[3]){vertex, vertex, vertex},
                                    .count = 1};
-    accel_scene_vertex(&alone, 0, 0, out);
+    scene_vertex(&alone, 0, 0, out);
 }
 
 /* first[v] becomes the lowest vertex at the place of v. Returns false where memory runs out. */
@@ -125,9 +125,9 @@ static void add_normal(const accel_triangles *mesh, uint32_t prim, const uint32_
                        double (*normals)[3])
 {
     double a[3], b[3], c[3], u[3], v[3];
-    accel_scene_vertex(mesh, prim, 0, a);
-    accel_scene_vertex(mesh, prim, 1, b);
-    accel_scene_vertex(mesh, prim, 2, c);
+    scene_vertex(mesh, prim, 0, a);
+    scene_vertex(mesh, prim, 1, b);
+    scene_vertex(mesh, prim, 2, c);
     for (int k = 0; k < 3; k++) {
         u[k] = b[k] - a[k];
         v[k] = c[k] - a[k];
@@ -200,9 +200,9 @@ static void write_corners(FILE *file, const accel_triangles *mesh, uint32_t prim
                           const char *separator)
 {
     double a[3], b[3], c[3];
-    accel_scene_vertex(mesh, prim, 0, a);
-    accel_scene_vertex(mesh, prim, 1, b);
-    accel_scene_vertex(mesh, prim, 2, c);
+    scene_vertex(mesh, prim, 0, a);
+    scene_vertex(mesh, prim, 1, b);
+    scene_vertex(mesh, prim, 2, c);
     fprintf(file, "%s{<%.17g,%.17g,%.17g>,<%.17g,%.17g,%.17g>,<%.17g,%.17g,%.17g>}", separator,
             a[0], a[1], a[2], b[0], b[1], b[2], c[0], c[1], c[2]);
 }
@@ -241,11 +241,11 @@ static bool write_meshes(FILE *file, const accel_scene *scene)
     return true;
 }
 
-bool accel_sdl_write(FILE *file, const accel_scene *scene, accel_sdl_form form)
+bool sdl_write(FILE *file, const accel_scene *scene, enum sdl_form form)
 {
     fprintf(file, "// %" PRIu64 " triangles in %" PRIu32 " geometries, written by accel export.\n",
-            accel_scene_primitives(scene), scene->count);
-    if (form == ACCEL_SDL_MESH2) {
+            scene_primitives(scene), scene->count);
+    if (form == SDL_MESH2) {
         return write_meshes(file, scene);
     }
     write_triangles(file, scene);

@@ -10,16 +10,16 @@
 #include <stdio.h>
 
 /* The forms in which a scene can be written. */
-typedef enum accel_sdl_form {
-    ACCEL_SDL_MESH2 = 0, /* an array Geometry of mesh2 objects */
-    ACCEL_SDL_TRIANGLES  /* arrays Corners and First */
-} accel_sdl_form;
+enum sdl_form {
+    SDL_MESH2 = 0, /* an array Geometry of mesh2 objects */
+    SDL_TRIANGLES  /* arrays Corners and First */
+};
 
 /* Says whether `scene` can be written in `form`; otherwise fills error->text with one line. */
-bool accel_sdl_fits(const accel_scene *scene, accel_sdl_form form, accel_error *error);
+bool sdl_fits(const accel_scene *scene, enum sdl_form form, accel_error *error);
 
 /* Writes `scene`, which must fit. Returns false where memory runs out; errors of the file stay in
  * the file, for ferror. */
-bool accel_sdl_write(FILE *file, const accel_scene *scene, accel_sdl_form form);
+bool sdl_write(FILE *file, const accel_scene *scene, enum sdl_form form);
 
 #endif

@@ -40,7 +40,7 @@ static int end(void *cookie)
     return fine ? 0 : -1;
 }
 
-FILE *accel_sink_open(int descriptor, int *trouble)
+FILE *sink_open(int descriptor, int *trouble)
 {
     sink *s = malloc(sizeof *s);
     if (s == NULL) {
@@ -54,7 +54,7 @@ FILE *accel_sink_open(int descriptor, int *trouble)
     return file;
 }
 
-bool accel_sink_close(FILE *file, int *trouble)
+bool sink_close(FILE *file, int *trouble)
 {
     const bool written = fflush(file) == 0 && !ferror(file);
     const bool closed = fclose(file) == 0;

@@ -12,9 +12,9 @@
 /* Opens a descriptor, which the stream then owns, to write to. *trouble becomes the errno of the
  * first write that fails, and must outlive the stream; a stream that failed writes no more.
  * Returns NULL and sets errno otherwise. */
-FILE *accel_sink_open(int descriptor, int *trouble);
+FILE *sink_open(int descriptor, int *trouble);
 
 /* Closes it. False: not all has arrived, and *trouble is not 0. */
-bool accel_sink_close(FILE *file, int *trouble);
+bool sink_close(FILE *file, int *trouble);
 
 #endif

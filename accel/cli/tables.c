@@ -4,7 +4,7 @@
  * its last section asks, other distributions and larger scenes.
  *
  * Ratios of illumination time only: the paper's seconds are a Pentium 4's, ours are processor time.
- * What the paper does not state and is chosen here: the lights (see accel_scene_lights),
+ * What the paper does not state and is chosen here: the lights (see scene_lights),
  * reflectance 0.5, the photons and the gaps of table 1, the leaf size of table 2.
  */
 #include "commands.h"
@@ -16,7 +16,7 @@
 
 enum { FLAG_TABLE, FLAG_QUICK, FLAG_PHOTONS, FLAG_REPEATS, FLAG_THREADS, FLAG_CSV };
 
-static const accel_flag flags[] = {
+static const struct flag flags[] = {
     [FLAG_TABLE] = {"table", 0, "N", "only table 1, 2 or 3"},
     [FLAG_QUICK] = {"quick", 0, NULL,
                     "fewer photons, turns and gaps: seconds instead of ten minutes"},
@@ -28,7 +28,7 @@ static const accel_flag flags[] = {
 };
 
 /* Depth and leaf of the paper, then each kind as it comes, then each with its best option. */
-static const accel_table_row rows1[] = {
+static const struct table_row rows1[] = {
     {"hoo:depth=3,leaf=12", 0, 139.0},
     {"octree:root=cube,depth=10,leaf=12", 0, 1147.0},
     {"octree:root=scene,depth=10,leaf=12", 0, 1147.0},
@@ -41,7 +41,7 @@ static const accel_table_row rows1[] = {
     {"octree:root=scene,leaf=?", 7, 0.0},
 };
 
-static const accel_table_row rows2[] = {
+static const struct table_row rows2[] = {
     {"hoo:depth=4,leaf=12", 0, 64.55},
     {"hug:form=paper,cells=13", 0, 81.23},
     {"hoo:depth=5,leaf=12", 2, 52.19},
@@ -63,9 +63,13 @@ static const accel_table_row rows2[] = {
 };
 
 /* Every kind as it comes. */
-static const accel_table_row rows3[] = {
-    {"hoo:form=classic", 0, 0.0},  {"octree:form=classic", 0, 0.0}, {"hug", 0, 0.0},
-    {"grid", 0, 0.0}, {"bsp", 0, 0.0},    {"bvh", 0, 0.0},
+static const struct table_row rows3[] = {
+    {"hoo:form=classic", 0, 0.0},
+    {"octree:form=classic", 0, 0.0},
+    {"hug", 0, 0.0},
+    {"grid", 0, 0.0},
+    {"bsp", 0, 0.0},
+    {"bvh", 0, 0.0},
 };
 
 static const char *const scenes3[] = {
@@ -94,21 +98,21 @@ enum { MOST_GAPS = sizeof gaps / sizeof gaps[0] };
 typedef struct sweep {
     const int *gaps;
     size_t count; /* of them */
-    accel_table_result at[MOST_GAPS][ACCEL_MOST_ROWS];
+    struct table_result at[MOST_GAPS][MOST_ROWS];
 } sweep;
 
-static double time_ratio(const accel_table_result *row, const accel_table_result *base)
+static double time_ratio(const struct table_result *row, const struct table_result *base)
 {
     return row->seconds / base->seconds;
 }
 
-static double node_count(const accel_table_result *row, const accel_table_result *base)
+static double node_count(const struct table_result *row, const struct table_result *base)
 {
     (void)base;
     return row->nodes;
 }
 
-static double test_count(const accel_table_result *row, const accel_table_result *base)
+static double test_count(const struct table_result *row, const struct table_result *base)
 {
     (void)base;
     return row->tests;
@@ -116,7 +120,7 @@ static double test_count(const accel_table_result *row, const accel_table_result
 
 /* One figure of every row by gap. */
 static void print_sweep(const sweep *s, const char *title,
-                        double (*figure)(const accel_table_result *, const accel_table_result *))
+                        double (*figure)(const struct table_result *, const struct table_result *))
 {
     printf("\n%s\n%-39s", title, "gap between the clusters, cluster sides");
     for (size_t i = 0; i < s->count; i++) {
@@ -125,7 +129,7 @@ static void print_sweep(const sweep *s, const char *title,
     for (size_t k = 0; k < ROWS1; k++) {
         printf("\n%-39s", rows1[k].config);
         for (size_t i = 0; i < s->count; i++) {
-            const accel_table_result *row = &s->at[i][k], *base = &s->at[i][rows1[k].base];
+            const struct table_result *row = &s->at[i][k], *base = &s->at[i][rows1[k].base];
             if (row->seconds > 0.0 && base->seconds > 0.0) {
                 printf(" %7.2f", figure(row, base));
             } else {
@@ -136,22 +140,22 @@ static void print_sweep(const sweep *s, const char *title,
     printf("\n");
 }
 
-static int run_table1(const accel_command *command, const accel_table_request *r)
+static int run_table1(const struct command *command, const struct table_request *r)
 {
     printf("Table 1: one octree against the hierarchy of octrees, two clusters of cubes.\n"
            "Paper: 1147 s / 139 s = 8.25, gain 87 %%; its gap is not stated.\n");
-    accel_table_missing(rows1, ROWS1);
+    table_missing(rows1, ROWS1);
     sweep s = {.gaps = r->quick ? quick_gaps : gaps,
                .count = r->quick ? sizeof quick_gaps / sizeof quick_gaps[0] : MOST_GAPS};
-    int worst = ACCEL_EXIT_FINE;
-    for (size_t i = 0; i < s.count && worst != ACCEL_EXIT_BAD; i++) {
+    int worst = EXIT_FINE;
+    for (size_t i = 0; i < s.count && worst != EXIT_BAD; i++) {
         char scene[40];
         snprintf(scene, sizeof scene, "cubes:gap=%d", s.gaps[i]);
         const int code =
-            accel_table_run(command, r, scene, rows1, ROWS1, r->quick ? 20000 : 200000, s.at[i]);
+            table_run(command, r, scene, rows1, ROWS1, r->quick ? 20000 : 200000, s.at[i]);
         worst = code > worst ? code : worst;
     }
-    if (worst != ACCEL_EXIT_BAD) {
+    if (worst != EXIT_BAD) {
         print_sweep(&s, "Time over that of the hoo it is compared with (paper: 8.25, at one gap)",
                     time_ratio);
         print_sweep(&s, "Nodes visited per ray", node_count);
@@ -161,67 +165,65 @@ static int run_table1(const accel_command *command, const accel_table_request *r
     return worst;
 }
 
-static int run_table2(const accel_command *command, const accel_table_request *r)
+static int run_table2(const struct command *command, const struct table_request *r)
 {
     printf("Table 2: hierarchy of octrees against hierarchy of uniform grids, nine teapots and a "
            "floor.\nEach hug is divided by the hoo above it, as in the paper.\n");
-    accel_table_missing(rows2, ROWS2);
-    accel_table_result results[ACCEL_MOST_ROWS];
-    return accel_table_run(command, r, "teapots", rows2, ROWS2, r->quick ? 20000 : 1000000,
-                           results);
+    table_missing(rows2, ROWS2);
+    struct table_result results[MOST_ROWS];
+    return table_run(command, r, "teapots", rows2, ROWS2, r->quick ? 20000 : 1000000, results);
 }
 
-static int run_table3(const accel_command *command, const accel_table_request *r)
+static int run_table3(const struct command *command, const struct table_request *r)
 {
     printf("\nTable 3, not in the paper: every kind as it comes, on other distributions.\n");
-    accel_table_missing(rows3, ROWS3);
-    int worst = ACCEL_EXIT_FINE;
-    for (size_t i = 0; i < (r->quick ? QUICK_SCENES : SCENES3) && worst != ACCEL_EXIT_BAD; i++) {
-        accel_table_result results[ACCEL_MOST_ROWS];
-        const int code = accel_table_run(command, r, scenes3[i], rows3, ROWS3,
-                                         r->quick ? 20000 : 200000, results);
+    table_missing(rows3, ROWS3);
+    int worst = EXIT_FINE;
+    for (size_t i = 0; i < (r->quick ? QUICK_SCENES : SCENES3) && worst != EXIT_BAD; i++) {
+        struct table_result results[MOST_ROWS];
+        const int code =
+            table_run(command, r, scenes3[i], rows3, ROWS3, r->quick ? 20000 : 200000, results);
         worst = code > worst ? code : worst;
     }
     return worst;
 }
 
-static int run_tables(const accel_command *command, const accel_table_request *r)
+static int run_tables(const struct command *command, const struct table_request *r)
 {
-    int (*const tables[])(const accel_command *,
-                          const accel_table_request *) = {run_table1, run_table2, run_table3};
-    int worst = ACCEL_EXIT_FINE;
-    for (unsigned i = 0; i < 3 && worst != ACCEL_EXIT_BAD; i++) {
-        const int code =
-            r->table == 0 || r->table == i + 1 ? tables[i](command, r) : ACCEL_EXIT_FINE;
+    int (*const tables[])(const struct command *,
+                          const struct table_request *) = {run_table1, run_table2, run_table3};
+    int worst = EXIT_FINE;
+    for (unsigned i = 0; i < 3 && worst != EXIT_BAD; i++) {
+        const int code = r->table == 0 || r->table == i + 1 ? tables[i](command, r) : EXIT_FINE;
         worst = code > worst ? code : worst;
     }
     return worst;
 }
 
 /* The file of figures appears whole or not at all. */
-static int run_into_file(const accel_command *command, accel_table_request *r)
+static int run_into_file(const struct command *command, struct table_request *r)
 {
     if (r->csv_name == NULL) {
         return run_tables(command, r);
     }
-    accel_output output;
+    struct output output;
     accel_error error;
-    if (!accel_output_open(&output, r->csv_name, &error)) {
-        return accel_complain(command, "%s", error.text);
+    if (!output_open(&output, r->csv_name, &error)) {
+        return complain(command, "%s", error.text);
     }
     r->csv = output.file;
     fprintf(r->csv, "scene,config,seconds,quartile1,quartile3,build_seconds,paper_seconds,rays,"
                     "hits,nodes_visited,tests,nodes,leaves,references,bytes,depth\n");
-    return accel_end_output(&output, run_tables(command, r), ACCEL_EXIT_DIFFERENT, command);
+    return end_output(&output, run_tables(command, r), EXIT_DIFFERENT, command);
 }
 
-static bool take(accel_arguments *a, int flag, void *request)
+static bool take(struct arguments *a, int flag, void *request)
 {
-    accel_table_request *r = request;
+    struct table_request *r = request;
     uint64_t table;
     switch (flag) {
     case FLAG_TABLE:
-        if (!accel_whole_argument(a, flag, 1, 3, &table)) {
+        if (!whole_argument(a, flag, 1, 3, &table)) {
             return false;
         }
         r->table = (unsigned)table;
@@ -230,32 +232,32 @@ static bool take(accel_arguments *a, int flag, void *request)
         r->quick = true;
         return true;
     case FLAG_PHOTONS:
-        return accel_whole_argument(a, flag, 1, 100000000, &r->photons);
+        return whole_argument(a, flag, 1, 100000000, &r->photons);
     case FLAG_REPEATS:
-        return accel_whole_argument(a, flag, 1, ACCEL_MOST_REPEATS, &r->repeats);
+        return whole_argument(a, flag, 1, MOST_REPEATS, &r->repeats);
     case FLAG_THREADS:
-        return accel_whole_argument(a, flag, 1, 1024, &r->threads);
+        return whole_argument(a, flag, 1, 1024, &r->threads);
     case FLAG_CSV:
         r->csv_name = a->value;
         return true;
     default:
-        accel_complain(a->command, "unexpected '%.60s'", a->value);
+        complain(a->command, "unexpected '%.60s'", a->value);
         return false;
     }
 }
 
-static int run(const accel_command *command, int argc, char **argv)
+static int run(const struct command *command, int argc, char **argv)
 {
-    accel_table_request r = {.threads = 1};
-    accel_arguments arguments = accel_arguments_start(command, argc, argv);
-    if (!accel_take_arguments(&arguments, take, &r)) {
+    struct table_request r = {.threads = 1};
+    struct arguments arguments = arguments_start(command, argc, argv);
+    if (!take_arguments(&arguments, take, &r)) {
         return arguments.exit_code;
     }
     r.quiet = arguments.quiet;
     return run_into_file(command, &r);
 }
 
-const accel_command accel_command_tables = {
+const struct command command_tables = {
     .name = "tables",
     .arguments = "[OPTION]...",
     .summary =

@@ -30,7 +30,7 @@ enum { VALUES = sizeof values / sizeof values[0], MOST_TUNED = 5, CONFIG_LENGTH 
 /* A row under way. */
 typedef struct line {
     char config[CONFIG_LENGTH]; /* the row's, tuned */
-    accel_trial *trial;         /* NULL: left out */
+    struct trial *trial;        /* NULL: left out */
 } line;
 
 static void fill_in(char config[CONFIG_LENGTH], const char *pattern, size_t value)
@@ -43,11 +43,11 @@ static void fill_in(char config[CONFIG_LENGTH], const char *pattern, size_t valu
 
 /* Replaces the '?' of each line's config by the value that is fastest with a tenth of the photons
  * of `full`, all of them taking turns. Returns the exit code. */
-static int tune(accel_trials full, line *lines, size_t count, const accel_command *command,
-                accel_progress *progress)
+static int tune(struct trials full, line *lines, size_t count, const struct command *command,
+                struct progress *progress)
 {
     char configs[MOST_TUNED * VALUES][CONFIG_LENGTH];
-    accel_trial tried[MOST_TUNED * VALUES];
+    struct trial tried[MOST_TUNED * VALUES];
     line *tuned[MOST_TUNED];
     size_t tuned_count = 0;
     for (size_t i = 0; i < count; i++) {
@@ -57,19 +57,19 @@ static int tune(accel_trials full, line *lines, size_t count, const accel_comman
         for (size_t v = 0; v < VALUES; v++) {
             const size_t at = tuned_count * VALUES + v;
             fill_in(configs[at], lines[i].config, v);
-            tried[at] = (accel_trial){.config = configs[at]};
+            tried[at] = (struct trial){.config = configs[at]};
         }
         tuned[tuned_count++] = &lines[i];
     }
     if (tuned_count == 0) {
-        return ACCEL_EXIT_FINE;
+        return EXIT_FINE;
     }
     full.at = tried;
     full.count = tuned_count * VALUES;
     full.repeats = 3;
     full.run.photons = full.run.photons / 10 + 1;
-    const int code = accel_trials_run(&full, command, progress);
-    for (size_t i = 0; i < tuned_count && code != ACCEL_EXIT_BAD; i++) {
+    const int code = trials_run(&full, command, progress);
+    for (size_t i = 0; i < tuned_count && code != EXIT_BAD; i++) {
         size_t best = i * VALUES;
         for (size_t v = 1; v < VALUES; v++) {
             best = tried[i * VALUES + v].median < tried[best].median ? i * VALUES + v : best;
@@ -80,19 +80,19 @@ static int tune(accel_trials full, line *lines, size_t count, const accel_comman
 }
 
 /* Gives a trial to each line whose kind is there; returns their number. */
-static size_t choose(line *lines, size_t count, accel_trial *trials)
+static size_t choose(line *lines, size_t count, struct trial *trials)
 {
     size_t left = 0;
     for (size_t i = 0; i < count; i++) {
         if (has_kind(lines[i].config)) {
             lines[i].trial = &trials[left++];
-            *lines[i].trial = (accel_trial){.config = lines[i].config};
+            *lines[i].trial = (struct trial){.config = lines[i].config};
         }
     }
     return left;
 }
 
-void accel_table_missing(const accel_table_row *rows, size_t count)
+void table_missing(const struct table_row *rows, size_t count)
 {
     for (size_t i = 0; i < count; i++) {
         if (!has_kind(rows[i].config)) {
@@ -101,10 +101,10 @@ void accel_table_missing(const accel_table_row *rows, size_t count)
     }
 }
 
-static void print_ratio(const accel_table_row *rows, size_t i, const accel_trial *trial,
-                        const accel_trial *base)
+static void print_ratio(const struct table_row *rows, size_t i, const struct trial *trial,
+                        const struct trial *base)
 {
-    const accel_table_row *r = &rows[i];
+    const struct table_row *r = &rows[i];
     char ratio[20] = "-", gain[20] = "-", paper[20] = "-", paper_gain[20] = "-";
     if (base != NULL) {
         snprintf(ratio, sizeof ratio, "%.2f", trial->median / base->median);
@@ -118,9 +118,9 @@ static void print_ratio(const accel_table_row *rows, size_t i, const accel_trial
     printf("%-35s %6s %6s %6s %6s", trial->config, ratio, paper, gain, paper_gain);
 }
 
-static void print_counts(const accel_trial *trial)
+static void print_counts(const struct trial *trial)
 {
-    const accel_photons *p = &trial->photons;
+    const struct photons *p = &trial->photons;
     const double rays = (double)p->rays;
     printf(" %7.0f %4.0f%% %7.2f %7.2f %8" PRIu64 " %8" PRIu64 " %8.0f\n",
            1e9 * trial->median / rays,
@@ -130,10 +130,10 @@ static void print_counts(const accel_trial *trial)
            (double)trial->info.bytes / 1024.0);
 }
 
-static void write_csv(FILE *csv, const char *scene, const accel_table_row *r,
-                      const accel_trial *trial)
+static void write_csv(FILE *csv, const char *scene, const struct table_row *r,
+                      const struct trial *trial)
 {
-    const accel_photons *p = &trial->photons;
+    const struct photons *p = &trial->photons;
     fprintf(csv,
             "%s,\"%s\",%.9g,%.9g,%.9g,%.9g,%.9g,%" PRIu64 ",%zu,%" PRIu64 ",%" PRIu64 ",%" PRIu64
             ",%" PRIu64 ",%" PRIu64 ",%" PRIu64 ",%" PRIu32 "\n",
@@ -143,7 +143,7 @@ static void write_csv(FILE *csv, const char *scene, const accel_table_row *r,
             trial->info.depth);
 }
 
-static void print_head(const accel_trials *t)
+static void print_head(const struct trials *t)
 {
     printf("\n%s: %" PRIu32 " lights, %" PRIu32 " photons for each, %u turns, %u threads\n",
            t->scene, t->run.lights.count, t->run.photons, t->repeats, t->run.threads);
@@ -151,12 +151,12 @@ static void print_head(const accel_trials *t)
            "gain", "paper", "ns/ray", "+-", "nodes/r", "tests/r", "cells", "refs", "KiB");
 }
 
-static void print_lines(const accel_table_request *r, const accel_trials *t,
-                        const accel_table_row *rows, const line *lines, size_t count)
+static void print_lines(const struct table_request *r, const struct trials *t,
+                        const struct table_row *rows, const line *lines, size_t count)
 {
     print_head(t);
     for (size_t i = 0; i < count; i++) {
-        const accel_trial *trial = lines[i].trial;
+        const struct trial *trial = lines[i].trial;
         if (trial != NULL) {
             print_ratio(rows, i, trial, lines[rows[i].base].trial);
             print_counts(trial);
@@ -169,44 +169,44 @@ static void print_lines(const accel_table_request *r, const accel_trials *t,
     fflush(stdout);
 }
 
-int accel_table_run(const accel_command *command, const accel_table_request *r, const char *scene,
-                    const accel_table_row *rows, size_t count, uint64_t photons,
-                    accel_table_result *results)
+int table_run(const struct command *command, const struct table_request *r, const char *scene,
+              const struct table_row *rows, size_t count, uint64_t photons,
+              struct table_result *results)
 {
-    accel_trial trials[ACCEL_MOST_ROWS];
-    line lines[ACCEL_MOST_ROWS];
+    struct trial trials[MOST_ROWS];
+    line lines[MOST_ROWS];
     for (size_t i = 0; i < count; i++) {
         snprintf(lines[i].config, CONFIG_LENGTH, "%s", rows[i].config);
         lines[i].trial = NULL;
-        results[i] = (accel_table_result){.seconds = 0.0};
+        results[i] = (struct table_result){.seconds = 0.0};
     }
-    accel_progress progress = accel_progress_start(r->quiet);
-    accel_trials t = {.scene = scene,
-                      .at = trials,
-                      .repeats = r->repeats != 0 ? (unsigned)r->repeats
-                                 : r->quick      ? 3
-                                                 : 11};
-    t.run = (accel_photon_run){.photons = (uint32_t)(r->photons != 0 ? r->photons : photons),
-                               .reflectance = 0.5,
-                               .seed = 1,
-                               .threads = (unsigned)r->threads};
+    struct progress progress = progress_start(r->quiet);
+    struct trials t = {.scene = scene,
+                       .at = trials,
+                       .repeats = r->repeats != 0 ? (unsigned)r->repeats
+                                  : r->quick      ? 3
+                                                  : 11};
+    t.run = (struct photon_run){.photons = (uint32_t)(r->photons != 0 ? r->photons : photons),
+                                .reflectance = 0.5,
+                                .seed = 1,
+                                .threads = (unsigned)r->threads};
     int code = tune(t, lines, count, command, &progress);
     t.count = choose(lines, count, trials);
-    if (code != ACCEL_EXIT_FINE || t.count == 0) {
+    if (code != EXIT_FINE || t.count == 0) {
         return code;
     }
-    code = accel_trials_run(&t, command, &progress);
-    if (code == ACCEL_EXIT_BAD) {
+    code = trials_run(&t, command, &progress);
+    if (code == EXIT_BAD) {
         return code;
     }
     print_lines(r, &t, rows, lines, count);
     for (size_t i = 0; i < count; i++) {
-        const accel_trial *trial = lines[i].trial;
+        const struct trial *trial = lines[i].trial;
         if (trial != NULL) {
-            const accel_photons *p = &trial->photons;
+            const struct photons *p = &trial->photons;
             results[i] =
-                (accel_table_result){trial->median, (double)p->query.nodes / (double)p->rays,
-                                     (double)p->query.tests / (double)p->rays};
+                (struct table_result){trial->median, (double)p->query.nodes / (double)p->rays,
+                                      (double)p->query.tests / (double)p->rays};
         }
     }
     return code;

@@ -9,7 +9,7 @@
  */
 #include "teapot_patches.h"
 
-const uint16_t accel_teapot_patches[ACCEL_TEAPOT_PATCHES][16] = {
+const uint16_t teapot_patches[TEAPOT_PATCHES][16] = {
     {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16},
     {4, 17, 18, 19, 8, 20, 21, 22, 12, 23, 24, 25, 16, 26, 27, 28},
     {19, 29, 30, 31, 22, 32, 33, 34, 25, 35, 36, 37, 28, 38, 39, 40},
@@ -44,7 +44,7 @@ const uint16_t accel_teapot_patches[ACCEL_TEAPOT_PATCHES][16] = {
     {270, 270, 270, 270, 300, 305, 306, 279, 297, 303, 304, 275, 294, 301, 302, 271},
 };
 
-const double accel_teapot_points[ACCEL_TEAPOT_POINTS][3] = {
+const double teapot_points[TEAPOT_POINTS][3] = {
     {1.4, 0, 2.4},
     {1.4, -0.784, 2.4},
     {0.784, -1.4, 2.4},

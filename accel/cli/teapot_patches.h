@@ -7,11 +7,11 @@
 
 #include <stdint.h>
 
-enum { ACCEL_TEAPOT_PATCHES = 32, ACCEL_TEAPOT_POINTS = 306 };
+enum { TEAPOT_PATCHES = 32, TEAPOT_POINTS = 306 };
 
-/* Four rows of four indices, counted from 1, into accel_teapot_points. */
-extern const uint16_t accel_teapot_patches[ACCEL_TEAPOT_PATCHES][16];
+/* Four rows of four indices, counted from 1, into teapot_points. */
+extern const uint16_t teapot_patches[TEAPOT_PATCHES][16];
 
-extern const double accel_teapot_points[ACCEL_TEAPOT_POINTS][3];
+extern const double teapot_points[TEAPOT_POINTS][3];
 
 #endif

@@ -14,7 +14,7 @@
 
 enum { FLAG_CONFIG, FLAG_OUTPUT, FLAG_SIZE, FLAG_CAMERA, FLAG_RAYS, FLAG_THREADS };
 
-static const accel_flag flags[] = {
+static const struct flag flags[] = {
     {"accelerator", 'a', "CONFIG", "structure to trace with (default: " ACCEL_DEFAULT_CONFIG ")"},
     {"output", 'o', "FILE",
      "file to write; its name ends in .exr or .png, with --rays in anything, and\n" ACCEL_DASH},
@@ -32,95 +32,94 @@ typedef struct request {
     uint64_t threads;
 } request;
 
-static bool write_image(accel_tracing *tracing, const accel_camera *camera, accel_output *output,
+static bool write_image(struct tracing *tracing, const struct camera *camera, struct output *output,
                         accel_error *error)
 {
     error->status = ACCEL_NO_MEMORY;
     snprintf(error->text, sizeof error->text, "out of memory; nothing was written");
     bool fine = false;
-    if (accel_ends_with(output->path, ".png")) {
-        unsigned char *pixels = accel_trace_picture(tracing, camera);
-        fine =
-            pixels != NULL && accel_write_png(pixels, camera->width, camera->height, output, error);
+    if (ends_with(output->path, ".png")) {
+        unsigned char *pixels = trace_picture(tracing, camera);
+        fine = pixels != NULL && png_write(pixels, camera->width, camera->height, output, error);
         free(pixels);
     } else {
-        accel_image image;
-        if (accel_trace_image(tracing, camera, &image)) {
-            fine = accel_image_write_exr(&image, output, error);
-            accel_image_free(&image);
+        struct image image;
+        if (trace_image(tracing, camera, &image)) {
+            fine = image_write_exr(&image, output, error);
+            image_free(&image);
         }
     }
     return fine;
 }
 
-static int fill_output(const accel_command *command, const request *request, accel_tracing *tracing,
-                       accel_output *output)
+static int fill_output(const struct command *command, const request *request,
+                       struct tracing *tracing, struct output *output)
 {
-    accel_camera camera;
+    struct camera camera;
     if (request->rays == NULL &&
-        !accel_camera_argument(command, request->size, request->camera, tracing->scene, &camera)) {
-        return ACCEL_EXIT_BAD;
+        !camera_argument(command, request->size, request->camera, tracing->scene, &camera)) {
+        return EXIT_BAD;
     }
     accel_error error;
     const bool fine = request->rays == NULL
                           ? write_image(tracing, &camera, output, &error)
-                          : accel_trace_text(tracing, request->rays, output->file, &error);
-    return fine ? ACCEL_EXIT_FINE : accel_complain(command, "%s", error.text);
+                          : trace_text(tracing, request->rays, output->file, &error);
+    return fine ? EXIT_FINE : complain(command, "%s", error.text);
 }
 
-static int load_and_trace(const accel_command *command, const request *request, bool quiet,
-                          accel_output *output)
+static int load_and_trace(const struct command *command, const request *request, bool quiet,
+                          struct output *output)
 {
-    accel_tracing tracing = {.threads = request->threads == 0 ? accel_crew_size()
-                                                              : (unsigned)request->threads,
-                             .progress = accel_progress_start(quiet)};
-    accel_loaded loaded;
-    if (!accel_open_scene(&loaded, request->scene, command, &tracing.progress)) {
-        return ACCEL_EXIT_BAD;
+    struct tracing tracing = {.threads =
+                                  request->threads == 0 ? crew_size() : (unsigned)request->threads,
+                              .progress = progress_start(quiet)};
+    struct loaded loaded;
+    if (!open_scene(&loaded, request->scene, command, &tracing.progress)) {
+        return EXIT_BAD;
     }
-    accel *a = accel_open_structure(&loaded, request->config, command, &tracing.progress);
+    accel *a = open_structure(&loaded, request->config, command, &tracing.progress);
     tracing.scene = &loaded.scene;
     tracing.structure = a;
-    const int code = a == NULL ? ACCEL_EXIT_BAD : fill_output(command, request, &tracing, output);
+    const int code = a == NULL ? EXIT_BAD : fill_output(command, request, &tracing, output);
     accel_free(a);
-    accel_unload_scene(&loaded);
+    unload_scene(&loaded);
     return code;
 }
 
-static int trace_into_file(const accel_command *command, const request *request, bool quiet)
+static int trace_into_file(const struct command *command, const request *request, bool quiet)
 {
-    accel_output output;
+    struct output output;
     accel_error error;
-    if (!accel_output_open(&output, request->output, &error)) {
-        return accel_complain(command, "%s", error.text);
+    if (!output_open(&output, request->output, &error)) {
+        return complain(command, "%s", error.text);
     }
-    return accel_end_output(&output, load_and_trace(command, request, quiet, &output),
-                            ACCEL_EXIT_FINE, command);
+    return end_output(&output, load_and_trace(command, request, quiet, &output), EXIT_FINE,
+                      command);
 }
 
-static int check_request(const accel_command *command, const request *request, bool quiet)
+static int check_request(const struct command *command, const request *request, bool quiet)
 {
     if (request->scene == NULL || request->output == NULL) {
-        return accel_complain(command, "SCENE and -o FILE are needed; usage: accel %s %s",
-                              command->name, command->arguments);
+        return complain(command, "SCENE and -o FILE are needed; usage: accel %s %s", command->name,
+                        command->arguments);
     }
     if (request->rays != NULL && (request->camera != NULL || request->size != NULL)) {
-        return accel_complain(command,
-                              "--rays takes the rays of a file: %s does not go with it; "
-                              "nothing was written",
-                              request->camera != NULL ? "--camera" : "--size");
+        return complain(command,
+                        "--rays takes the rays of a file: %s does not go with it; "
+                        "nothing was written",
+                        request->camera != NULL ? "--camera" : "--size");
     }
-    if (request->rays == NULL && !accel_ends_with(request->output, ".exr") &&
-        !accel_ends_with(request->output, ".png")) {
-        return accel_complain(command,
-                              "-o '%.100s' ends in neither .exr nor .png; nothing was "
-                              "written",
-                              request->output);
+    if (request->rays == NULL && !ends_with(request->output, ".exr") &&
+        !ends_with(request->output, ".png")) {
+        return complain(command,
+                        "-o '%.100s' ends in neither .exr nor .png; nothing was "
+                        "written",
+                        request->output);
     }
     return trace_into_file(command, request, quiet);
 }
 
-static bool take(accel_arguments *arguments, int found, void *user)
+static bool take(struct arguments *arguments, int found, void *user)
 {
     request *request = user;
     const char **const texts[] = {[FLAG_CONFIG] = &request->config,
@@ -129,26 +128,26 @@ static bool take(accel_arguments *arguments, int found, void *user)
                                   [FLAG_CAMERA] = &request->camera,
                                   [FLAG_RAYS] = &request->rays};
     if (found == FLAG_THREADS) {
-        return accel_whole_argument(arguments, found, 1, 1024, &request->threads);
+        return whole_argument(arguments, found, 1, 1024, &request->threads);
     }
-    if (found == ACCEL_ARGUMENT_WORD) {
-        return accel_one_word(arguments, "SCENE", &request->scene);
+    if (found == ARGUMENT_WORD) {
+        return one_word(arguments, "SCENE", &request->scene);
     }
     *texts[found] = arguments->value;
     return true;
 }
 
-static int run(const accel_command *command, int argc, char **argv)
+static int run(const struct command *command, int argc, char **argv)
 {
-    accel_arguments arguments = accel_arguments_start(command, argc, argv);
+    struct arguments arguments = arguments_start(command, argc, argv);
     request request = {.config = ACCEL_DEFAULT_CONFIG};
-    if (!accel_take_arguments(&arguments, take, &request)) {
+    if (!take_arguments(&arguments, take, &request)) {
         return arguments.exit_code;
     }
     return check_request(command, &request, arguments.quiet);
 }
 
-const accel_command accel_command_trace = {
+const struct command command_trace = {
     .name = "trace",
     .arguments = "SCENE -o FILE [-a CONFIG] [--size WxH] [--camera E:A:F] [--rays FILE]",
     .summary = "write the hits of a camera's rays, or of a file of rays",

@@ -10,28 +10,28 @@
 #include "structure.h"
 
 /* A structure, its scene, and how to work. */
-typedef struct accel_tracing {
+struct tracing {
     const accel_scene *scene;
     const accel *structure;
     unsigned threads;
-    accel_progress progress;
-} accel_tracing;
+    struct progress progress;
+};
 
 /* The geometric normal at a hit, unit length, as the winding of a triangle has it; 0 where a
  * triangle is so thin that it has none. */
-void accel_hit_normal(const accel_scene *scene, const accel_ray *ray, const accel_hit *hit,
-                      double normal[3]);
+void hit_normal(const accel_scene *scene, const accel_ray *ray, const accel_hit *hit,
+                double normal[3]);
 
-/* Traces one ray for each pixel into the channels that accel_trace_channels names. Returns false
+/* Traces one ray for each pixel into the channels that trace_channels names. Returns false
  * when memory runs out. */
-bool accel_trace_image(accel_tracing *tracing, const accel_camera *camera, accel_image *image);
+bool trace_image(struct tracing *tracing, const struct camera *camera, struct image *image);
 
 /* The same, as a picture to look at: 3 bytes for each pixel, freed by the caller; NULL when memory
  * runs out. */
-unsigned char *accel_trace_picture(accel_tracing *tracing, const accel_camera *camera);
+unsigned char *trace_picture(struct tracing *tracing, const struct camera *camera);
 
 /* Traces the rays of a file, one for each line, into a text with one line for each. Returns false
  * and fills error->text otherwise. */
-bool accel_trace_text(accel_tracing *tracing, const char *path, FILE *out, accel_error *error);
+bool trace_text(struct tracing *tracing, const char *path, FILE *out, accel_error *error);
 
 #endif

@@ -24,8 +24,8 @@ typedef void use_hit(void *target, const accel_scene *scene, size_t pixel, const
 
 /* What the threads share. */
 typedef struct run {
-    accel_tracing *tracing;
-    const accel_camera *camera;
+    struct tracing *tracing;
+    const struct camera *camera;
     use_hit *use;
     void *target;
     atomic_uint_fast32_t next; /* row to take */
@@ -44,19 +44,19 @@ static double length_of(const double v[3])
     return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 }
 
-void accel_hit_normal(const accel_scene *scene, const accel_ray *ray, const accel_hit *hit,
-                      double normal[3])
+void hit_normal(const accel_scene *scene, const accel_ray *ray, const accel_hit *hit,
+                double normal[3])
 {
     const accel_geometry *geometry = &scene->geometries[hit->geom];
     double corners[3][3];
     if (geometry->type == ACCEL_SPHERES) {
-        const double *sphere = accel_scene_sphere(&geometry->spheres, hit->prim);
+        const double *sphere = scene_sphere(&geometry->spheres, hit->prim);
         for (int k = 0; k < 3; k++) {
             normal[k] = ray->org[k] + hit->t * ray->dir[k] - sphere[k];
         }
     } else {
         for (int i = 0; i < 3; i++) {
-            accel_scene_vertex(&geometry->triangles, hit->prim, i, corners[i]);
+            scene_vertex(&geometry->triangles, hit->prim, i, corners[i]);
         }
         for (int k = 0; k < 3; k++) {
             corners[1][k] -= corners[0][k];
@@ -79,7 +79,7 @@ static uint32_t float_bits(double x)
 }
 
 /* The upper and the lower half of a double: nothing is lost. */
-static void store_double(accel_image *image, int hi, size_t pixel, double x)
+static void store_double(struct image *image, int hi, size_t pixel, double x)
 {
     uint64_t bits;
     memcpy(&bits, &x, sizeof bits);
@@ -90,12 +90,12 @@ static void store_double(accel_image *image, int hi, size_t pixel, double x)
 static void store_hit(void *target, const accel_scene *scene, size_t pixel, const accel_ray *ray,
                       const accel_hit *hit)
 {
-    accel_image *image = target;
+    struct image *image = target;
     static const accel_hit miss = {(double)INFINITY, 0.0, 0.0, ACCEL_NONE, ACCEL_NONE};
     double normal[3] = {0.0, 0.0, 0.0};
     const accel_hit *shown = hit == NULL ? &miss : hit;
     if (hit != NULL) {
-        accel_hit_normal(scene, ray, hit, normal);
+        hit_normal(scene, ray, hit, normal);
     }
     for (int k = 0; k < 3; k++) {
         const double at = hit == NULL ? 0.0 : ray->org[k] + hit->t * ray->dir[k];
@@ -120,7 +120,7 @@ static void paint_hit(void *target, const accel_scene *scene, size_t pixel, cons
         return;
     }
     double normal[3];
-    accel_hit_normal(scene, ray, hit, normal);
+    hit_normal(scene, ray, hit, normal);
     double facing = 0.0;
     for (int k = 0; k < 3; k++) {
         facing -= normal[k] * ray->dir[k] / length_of(ray->dir);
@@ -135,44 +135,43 @@ static void paint_hit(void *target, const accel_scene *scene, size_t pixel, cons
 static void work(void *user, unsigned thread)
 {
     run *r = user;
-    accel_tracing *tracing = r->tracing;
+    struct tracing *tracing = r->tracing;
     for (;;) {
         const uint32_t row = (uint32_t)atomic_fetch_add(&r->next, 1);
         if (row >= r->camera->height) {
             return;
         }
         for (uint32_t column = 0; column < r->camera->width; column++) {
-            const accel_ray ray = accel_camera_ray(r->camera, column, row);
+            const accel_ray ray = camera_ray(r->camera, column, row);
             accel_hit hit;
             const bool found = accel_closest(tracing->structure, &ray, &hit, NULL);
             r->use(r->target, tracing->scene, (size_t)row * r->camera->width + column, &ray,
                    found ? &hit : NULL);
         }
         if (thread == 0) {
-            accel_progress_show(&tracing->progress, "tracing",
-                                (double)row / (double)r->camera->height);
+            progress_show(&tracing->progress, "tracing", (double)row / (double)r->camera->height);
         }
     }
 }
 
-static void trace_all(accel_tracing *tracing, const accel_camera *camera, use_hit *use,
+static void trace_all(struct tracing *tracing, const struct camera *camera, use_hit *use,
                       void *target)
 {
     run r = {.tracing = tracing, .camera = camera, .use = use, .target = target};
-    accel_crew(tracing->threads, work, &r);
-    accel_progress_clear(&tracing->progress);
+    crew(tracing->threads, work, &r);
+    progress_clear(&tracing->progress);
 }
 
-bool accel_trace_image(accel_tracing *tracing, const accel_camera *camera, accel_image *image)
+bool trace_image(struct tracing *tracing, const struct camera *camera, struct image *image)
 {
-    if (!accel_image_make(image, camera->width, camera->height, channel_names)) {
+    if (!image_make(image, camera->width, camera->height, channel_names)) {
         return false;
     }
     trace_all(tracing, camera, store_hit, image);
     return true;
 }
 
-unsigned char *accel_trace_picture(accel_tracing *tracing, const accel_camera *camera)
+unsigned char *trace_picture(struct tracing *tracing, const struct camera *camera)
 {
     unsigned char *pixels = calloc((size_t)camera->width * camera->height, 3);
     if (pixels != NULL) {

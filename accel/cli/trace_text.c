@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static void write_hit(const accel_tracing *tracing, const accel_ray *ray, FILE *out)
+static void write_hit(const struct tracing *tracing, const accel_ray *ray, FILE *out)
 {
     accel_hit hit;
     if (accel_closest(tracing->structure, ray, &hit, NULL)) {
@@ -23,7 +23,7 @@ static void write_hit(const accel_tracing *tracing, const accel_ray *ray, FILE *
     }
 }
 
-static bool refuse(const accel_file *file, const accel_ray_lines *lines, accel_error *error)
+static bool refuse(const struct file *file, const struct ray_lines *lines, accel_error *error)
 {
     error->status = ACCEL_BAD_ARGUMENT;
     snprintf(error->text, sizeof error->text,
@@ -33,20 +33,20 @@ static bool refuse(const accel_file *file, const accel_ray_lines *lines, accel_e
     return false;
 }
 
-static bool trace_lines(accel_tracing *tracing, const accel_file *file, FILE *out,
+static bool trace_lines(struct tracing *tracing, const struct file *file, FILE *out,
                         accel_error *error)
 {
-    accel_ray_lines lines = accel_ray_lines_start(file);
+    struct ray_lines lines = ray_lines_start(file);
     accel_ray ray;
-    accel_ray_line found;
+    enum ray_line found;
     uint64_t rays = 0;
-    while ((found = accel_next_ray(&lines, &ray)) == ACCEL_RAY_LINE) {
+    while ((found = next_ray(&lines, &ray)) == RAY_LINE) {
         write_hit(tracing, &ray, out);
-        accel_progress_show(&tracing->progress, "tracing",
-                            (double)(lines.at - file->bytes) / (double)file->size);
+        progress_show(&tracing->progress, "tracing",
+                      (double)(lines.at - file->bytes) / (double)file->size);
         rays++;
     }
-    if (found == ACCEL_NO_RAY_LINE) {
+    if (found == NO_RAY_LINE) {
         return refuse(file, &lines, error);
     }
     if (rays == 0) {
@@ -57,14 +57,14 @@ static bool trace_lines(accel_tracing *tracing, const accel_file *file, FILE *ou
     return rays != 0;
 }
 
-bool accel_trace_text(accel_tracing *tracing, const char *path, FILE *out, accel_error *error)
+bool trace_text(struct tracing *tracing, const char *path, FILE *out, accel_error *error)
 {
-    accel_file file;
-    if (!accel_file_read(&file, path, error)) {
+    struct file file;
+    if (!file_read(&file, path, error)) {
         return false;
     }
     const bool fine = trace_lines(tracing, &file, out, error);
-    accel_progress_clear(&tracing->progress);
+    progress_clear(&tracing->progress);
     free(file.bytes);
     return fine;
 }

@@ -7,15 +7,15 @@
 
 static void show(void *progress, double done)
 {
-    accel_progress_show(progress, "photons", done);
+    progress_show(progress, "photons", done);
 }
 
-static bool build_all(accel_trials *t, const accel_loaded *loaded, const accel_command *command,
-                      accel_progress *progress)
+static bool build_all(struct trials *t, const struct loaded *loaded, const struct command *command,
+                      struct progress *progress)
 {
     for (size_t i = 0; i < t->count; i++) {
-        accel_trial *trial = &t->at[i];
-        trial->structure = accel_open_structure(loaded, trial->config, command, progress);
+        struct trial *trial = &t->at[i];
+        trial->structure = open_structure(loaded, trial->config, command, progress);
         if (trial->structure == NULL) {
             return false;
         }
@@ -25,67 +25,67 @@ static bool build_all(accel_trials *t, const accel_loaded *loaded, const accel_c
 }
 
 /* One turn of one structure. The first turn of each is hashed and judged. */
-static int take_turn(accel_trials *t, size_t index, unsigned turn, const accel_loaded *loaded,
-                     const accel_command *command)
+static int take_turn(struct trials *t, size_t index, unsigned turn, const struct loaded *loaded,
+                     const struct command *command)
 {
-    accel_trial *trial = &t->at[index];
-    accel_photons photons;
-    if (!accel_trace_photons(&photons, trial->structure, &loaded->scene, &t->run)) {
-        return accel_complain(command, "out of memory for the photons");
+    struct trial *trial = &t->at[index];
+    struct photons photons;
+    if (!trace_photons(&photons, trial->structure, &loaded->scene, &t->run)) {
+        return complain(command, "out of memory for the photons");
     }
     trial->seconds[turn] = photons.processor;
-    int code = ACCEL_EXIT_FINE;
+    int code = EXIT_FINE;
     if (turn == 0) {
-        const uint64_t hash = accel_photons_hash(&photons);
+        const uint64_t hash = photons_hash(&photons);
         t->hash = index == 0 ? hash : t->hash;
         if (hash != t->hash) {
             printf("DIFFERENT: %s: %s did not store the hits of %s\n", t->scene, trial->config,
                    t->at[0].config);
-            code = ACCEL_EXIT_DIFFERENT;
+            code = EXIT_DIFFERENT;
         }
     }
     trial->photons = photons;
     trial->photons.at = NULL;
-    accel_photons_free(&photons);
+    photons_free(&photons);
     return code;
 }
 
-static int take_turns(accel_trials *t, const accel_loaded *loaded, const accel_command *command,
-                      accel_progress *progress)
+static int take_turns(struct trials *t, const struct loaded *loaded, const struct command *command,
+                      struct progress *progress)
 {
-    int code = ACCEL_EXIT_FINE;
-    for (unsigned turn = 0; turn < t->repeats && code == ACCEL_EXIT_FINE; turn++) {
-        for (size_t i = 0; i < t->count && code != ACCEL_EXIT_BAD; i++) {
+    int code = EXIT_FINE;
+    for (unsigned turn = 0; turn < t->repeats && code == EXIT_FINE; turn++) {
+        for (size_t i = 0; i < t->count && code != EXIT_BAD; i++) {
             progress->what = t->at[i].config;
             const int own = take_turn(t, i, turn, loaded, command);
-            code = own == ACCEL_EXIT_FINE ? code : own;
+            code = own == EXIT_FINE ? code : own;
         }
     }
     progress->what = NULL;
-    accel_progress_clear(progress);
+    progress_clear(progress);
     return code;
 }
 
-static void sum_up(accel_trial *trial, unsigned repeats)
+static void sum_up(struct trial *trial, unsigned repeats)
 {
-    accel_sort_values(trial->seconds, repeats);
-    trial->median = accel_quantile(trial->seconds, repeats, 0.5);
-    trial->quartiles[0] = accel_quantile(trial->seconds, repeats, 0.25);
-    trial->quartiles[1] = accel_quantile(trial->seconds, repeats, 0.75);
+    sort_values(trial->seconds, repeats);
+    trial->median = quantile(trial->seconds, repeats, 0.5);
+    trial->quartiles[0] = quantile(trial->seconds, repeats, 0.25);
+    trial->quartiles[1] = quantile(trial->seconds, repeats, 0.75);
 }
 
-int accel_trials_run(accel_trials *t, const accel_command *command, accel_progress *progress)
+int trials_run(struct trials *t, const struct command *command, struct progress *progress)
 {
-    accel_loaded loaded;
-    if (!accel_open_scene(&loaded, t->scene, command, progress)) {
-        return ACCEL_EXIT_BAD;
+    struct loaded loaded;
+    if (!open_scene(&loaded, t->scene, command, progress)) {
+        return EXIT_BAD;
     }
-    accel_light lights[ACCEL_MOST_LIGHTS];
+    struct light lights[MOST_LIGHTS];
     t->run.lights.at = lights;
-    t->run.lights.count = accel_scene_lights(t->scene, &loaded.scene, lights);
+    t->run.lights.count = scene_lights(t->scene, &loaded.scene, lights);
     t->run.progress = show;
     t->run.user = progress;
-    int code = ACCEL_EXIT_BAD;
+    int code = EXIT_BAD;
     if (build_all(t, &loaded, command, progress)) {
         code = take_turns(t, &loaded, command, progress);
     }
@@ -95,6 +95,6 @@ int accel_trials_run(accel_trials *t, const accel_command *command, accel_progre
         t->at[i].structure = NULL;
     }
     t->run.lights.at = NULL;
-    accel_unload_scene(&loaded);
+    unload_scene(&loaded);
     return code;
 }

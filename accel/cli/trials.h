@@ -10,30 +10,30 @@
 #include "photons.h"
 #include "structure.h"
 
-enum { ACCEL_MOST_REPEATS = 101 };
+enum { MOST_REPEATS = 101 };
 
 /* One structure. */
-typedef struct accel_trial {
+struct trial {
     const char *config;
     accel *structure;
-    accel_info info;                    /* of the structure */
-    double seconds[ACCEL_MOST_REPEATS]; /* of illumination, processor time; sorted in the end */
-    double median, quartiles[2];        /* of them */
-    accel_photons photons;              /* counts of one run; the list itself is gone */
-} accel_trial;
+    accel_info info;              /* of the structure */
+    double seconds[MOST_REPEATS]; /* of illumination, processor time; sorted in the end */
+    double median, quartiles[2];  /* of them */
+    struct photons photons;       /* counts of one run; the list itself is gone */
+};
 
 /* A scene and the structures that take turns on it. */
-typedef struct accel_trials {
+struct trials {
     const char *scene;
-    accel_trial *at; /* count of them, config set */
+    struct trial *at; /* count of them, config set */
     size_t count;
     unsigned repeats;
-    accel_photon_run run; /* its lights are the scene's own */
-    uint64_t hash;        /* of what all have stored */
-} accel_trials;
+    struct photon_run run; /* its lights are the scene's own */
+    uint64_t hash;         /* of what all have stored */
+};
 
-/* Runs them. Returns the exit code; ACCEL_EXIT_DIFFERENT where two stored different bits, which has
+/* Runs them. Returns the exit code; EXIT_DIFFERENT where two stored different bits, which has
  * been printed. Structures are gone afterwards. */
-int accel_trials_run(accel_trials *trials, const accel_command *command, accel_progress *progress);
+int trials_run(struct trials *trials, const struct command *command, struct progress *progress);
 
 #endif

@@ -14,7 +14,7 @@
 
 static const char *volatile unfinished;
 static volatile sig_atomic_t is_folder, file_count;
-static char files[ACCEL_MOST_FILES][ACCEL_FILE_NAME];
+static char files[MOST_FILES][FILE_NAME];
 static pid_t owner;
 
 static void remove_folder(const char *path)
@@ -30,7 +30,7 @@ static void remove_folder(const char *path)
     rmdir(path);
 }
 
-void accel_unfinished_remove(void)
+void unfinished_remove(void)
 {
     const char *path = unfinished;
     if (path == NULL || getpid() != owner) {
@@ -46,7 +46,7 @@ void accel_unfinished_remove(void)
 
 static void remove_and_end(int number)
 {
-    accel_unfinished_remove();
+    unfinished_remove();
     /* not earlier: a second signal, in another thread, would end the process before it is done */
     signal(number, SIG_DFL);
     raise(number);
@@ -78,12 +78,12 @@ static void watch(void)
         }
     }
     if (!watching) {
-        atexit(accel_unfinished_remove);
+        atexit(unfinished_remove);
     }
     watching = true;
 }
 
-void accel_unfinished_start(const char *path, bool folder)
+void unfinished_start(const char *path, bool folder)
 {
     is_folder = folder;
     file_count = 0;
@@ -92,14 +92,14 @@ void accel_unfinished_start(const char *path, bool folder)
     watch();
 }
 
-bool accel_unfinished_name(const char *file)
+bool unfinished_name(const char *file)
 {
     for (int i = 0; i < file_count; i++) {
         if (strcmp(files[i], file) == 0) {
             return true;
         }
     }
-    if (file_count == ACCEL_MOST_FILES || strlen(file) >= ACCEL_FILE_NAME) {
+    if (file_count == MOST_FILES || strlen(file) >= FILE_NAME) {
         return false;
     }
     strcpy(files[file_count], file);
@@ -107,24 +107,24 @@ bool accel_unfinished_name(const char *file)
     return true;
 }
 
-const char *accel_unfinished_file(int i)
+const char *unfinished_file(int i)
 {
     return i < file_count ? files[i] : NULL;
 }
 
-void accel_unfinished_done(void)
+void unfinished_done(void)
 {
     unfinished = NULL;
 }
 
-void accel_signals_hold(sigset_t *before)
+void signals_hold(sigset_t *before)
 {
     sigset_t all;
     sigfillset(&all);
     pthread_sigmask(SIG_BLOCK, &all, before);
 }
 
-void accel_signals_go_on(const sigset_t *before)
+void signals_go_on(const sigset_t *before)
 {
     pthread_sigmask(SIG_SETMASK, before, NULL);
 }

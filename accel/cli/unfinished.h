@@ -13,26 +13,26 @@
 #include <signal.h>
 #include <stdbool.h>
 
-enum { ACCEL_MOST_FILES = 64, ACCEL_FILE_NAME = 64 };
+enum { MOST_FILES = 64, FILE_NAME = 64 };
 
 /* Starts to watch a file, or a folder with the files to be named. One at a time in a process; the
  * name is not copied. */
-void accel_unfinished_start(const char *path, bool is_folder);
+void unfinished_start(const char *path, bool is_folder);
 
 /* Names a file in the folder, once is enough. False: too many or too long. */
-bool accel_unfinished_name(const char *file);
+bool unfinished_name(const char *file);
 
 /* The names so far, in order; NULL from the last on. */
-const char *accel_unfinished_file(int i);
+const char *unfinished_file(int i);
 
 /* Nothing is under way any more: it is in its place, or is to be kept. */
-void accel_unfinished_done(void);
+void unfinished_done(void);
 
 /* Removes it. */
-void accel_unfinished_remove(void);
+void unfinished_remove(void);
 
 /* Keeps all signals waiting until they are let go on, for what must not be half done. */
-void accel_signals_hold(sigset_t *before);
-void accel_signals_go_on(const sigset_t *before);
+void signals_hold(sigset_t *before);
+void signals_go_on(const sigset_t *before);
 
 #endif

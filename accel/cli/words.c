@@ -18,7 +18,7 @@ static size_t least(size_t a, size_t b)
     return a < b ? a : b;
 }
 
-bool accel_ends_with(const char *name, const char *ending)
+bool ends_with(const char *name, const char *ending)
 {
     const size_t length = strlen(name), own = strlen(ending);
     return length > own && strcmp(name + length - own, ending) == 0;
@@ -48,8 +48,8 @@ static size_t edit_distance(const char *a, size_t a_length, const char *b, size_
     return row[b_length];
 }
 
-void accel_nearest_offer(const char *typed, size_t length, const char *word, const char **best,
-                         size_t *distance)
+void nearest_offer(const char *typed, size_t length, const char *word, const char **best,
+                   size_t *distance)
 {
     const size_t word_length = strlen(word);
     const bool begun = length > 0 && length < word_length && strncasecmp(typed, word, length) == 0;
@@ -62,7 +62,7 @@ void accel_nearest_offer(const char *typed, size_t length, const char *word, con
     }
 }
 
-bool accel_read_number(const char *text, size_t length, double *out)
+bool read_number(const char *text, size_t length, double *out)
 {
     char copy[LONGEST_NUMBER + 1];
     if (length == 0 || length > LONGEST_NUMBER || strspn(text, "+-.0123456789eE") < length) {
@@ -79,7 +79,7 @@ bool accel_read_number(const char *text, size_t length, double *out)
     return true;
 }
 
-bool accel_read_whole(const char *text, uint64_t min, uint64_t max, uint64_t *out)
+bool read_whole(const char *text, uint64_t min, uint64_t max, uint64_t *out)
 {
     if (!isdigit((unsigned char)text[0])) {
         return false;

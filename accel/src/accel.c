@@ -19,17 +19,18 @@
 #define ACCEL_KINDS_FILE "kinds.h"
 #endif
 
-#define KIND(name, parts) extern const struct accel_kind name##_kind;
+#define KIND(name, parts) extern const struct accel_kind accel_##name##_kind;
 #include ACCEL_KINDS_FILE
 #undef KIND
 
-#define KIND(name, parts) &name##_kind.info,
-const accel_kind_info *const kinds[] = {
+#define KIND(name, parts) &accel_##name##_kind.info,
+const accel_kind_info *const accel_kind_list[] = {
 #include ACCEL_KINDS_FILE
     NULL};
 #undef KIND
 
-_Static_assert(sizeof kinds / sizeof *kinds <= MAX_KINDS + 1, "raise MAX_KINDS in kind.h");
+_Static_assert(sizeof accel_kind_list / sizeof *accel_kind_list <= MAX_KINDS + 1,
+               "raise MAX_KINDS in kind.h");
 
 const char *accel_version(void)
 {
@@ -39,8 +40,8 @@ const char *accel_version(void)
 const accel_kind_info *const *accel_kinds(size_t *count)
 {
     if (count)
-        *count = sizeof kinds / sizeof *kinds - 1;
-    return kinds;
+        *count = sizeof accel_kind_list / sizeof *accel_kind_list - 1;
+    return accel_kind_list;
 }
 
 static double seconds_since(const struct timespec *start)
@@ -61,7 +62,7 @@ static void end_phase(struct build *build)
     build->phase = NULL;
 }
 
-void build_phase(struct build *build, const char *name)
+void accel_build_phase(struct build *build, const char *name)
 {
     end_phase(build);
     build->phase = name;
@@ -69,7 +70,7 @@ void build_phase(struct build *build, const char *name)
     clock_gettime(CLOCK_MONOTONIC, &build->phase_start);
 }
 
-bool build_tick(struct build *build, double done)
+bool accel_build_tick(struct build *build, double done)
 {
     const double seconds_between = 0.005;
     if (done > build->done)
@@ -79,22 +80,24 @@ bool build_tick(struct build *build, double done)
     clock_gettime(CLOCK_MONOTONIC, &build->last_tick);
     if (build->hooks->progress(build->hooks->user, build->phase, build->done))
         return true;
-    error_set(build->error, ACCEL_CANCELLED, "build %s: cancelled in phase '%s'; nothing was built",
-              build->a->kind->info.name, build->phase);
+    accel_error_set(build->error, ACCEL_CANCELLED,
+                    "build %s: cancelled in phase '%s'; nothing was built",
+                    build->a->kind->info.name, build->phase);
     return false;
 }
 
-bool build_no_memory(struct build *build)
+bool accel_build_no_memory(struct build *build)
 {
     const struct memory *m = &build->a->memory;
-    error_set(build->error, ACCEL_NO_MEMORY,
-              "build %s: no memory for a block of %zu bytes in phase '%s', %zu bytes were held; "
-              "nothing was built",
-              build->a->kind->info.name, m->refused, build->phase, m->bytes);
+    accel_error_set(
+        build->error, ACCEL_NO_MEMORY,
+        "build %s: no memory for a block of %zu bytes in phase '%s', %zu bytes were held; "
+        "nothing was built",
+        build->a->kind->info.name, m->refused, build->phase, m->bytes);
     return false;
 }
 
-void build_left_out(struct build *build, size_t bytes, size_t made, const char *format, ...)
+void accel_build_left_out(struct build *build, size_t bytes, size_t made, const char *format, ...)
 {
     accel_info *info = &build->a->info;
     if (info->left_out_count == ACCEL_INFO_LEFT_OUT)
@@ -121,7 +124,7 @@ __attribute__((format(printf, 2, 0))) static void add_note(accel_info *info, con
     info->note_count++;
 }
 
-void build_note(struct build *build, const char *format, ...)
+void accel_build_note(struct build *build, const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
@@ -129,7 +132,7 @@ void build_note(struct build *build, const char *format, ...)
     va_end(arguments);
 }
 
-void info_note(accel_info *info, const char *format, ...)
+void accel_info_note(accel_info *info, const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
@@ -141,21 +144,22 @@ void info_note(accel_info *info, const char *format, ...)
  * options. */
 static bool choose(struct build *build)
 {
-    const struct accel_kind *from = build->a->kind, *to = (const struct accel_kind *)kinds[0];
-    build_phase(build, "choose");
+    const struct accel_kind *from = build->a->kind,
+                            *to = (const struct accel_kind *)accel_kind_list[0];
+    accel_build_phase(build, "choose");
     if (build->a->prims.bounded.count > 0 && !from->choose(build, &to))
         return false;
     struct memory m = build->a->memory;
-    accel *a = memory_resize(&m, build->a, from->size, to->size);
+    accel *a = accel_memory_resize(&m, build->a, from->size, to->size);
     if (!a) {
         build->a->memory.refused = m.refused;
-        return build_no_memory(build);
+        return accel_build_no_memory(build);
     }
     memset((char *)a + from->size, 0, to->size - from->size);
     a->memory = m;
     a->kind = to;
     build->a = a;
-    return config_parse(to->info.name, a->option, build->error) != NULL;
+    return accel_config_parse(to->info.name, a->option, build->error) != NULL;
 }
 
 /* Copies the scene and builds the kind over it. */
@@ -164,8 +168,8 @@ static bool run(struct build *build, const accel_scene *scene)
     struct timespec start;
     clock_gettime(CLOCK_MONOTONIC, &start);
     build->last_tick = start;
-    build_phase(build, "copy");
-    if (!primitives_copy(build, scene))
+    accel_build_phase(build, "copy");
+    if (!accel_primitives_copy(build, scene))
         return false;
     if (build->a->kind->choose && !choose(build))
         return false;
@@ -176,7 +180,7 @@ static bool run(struct build *build, const accel_scene *scene)
     }
     end_phase(build);
     a->info.kind = a->kind->info.name;
-    config_print(a->kind, a->option, a->info.config, sizeof a->info.config);
+    accel_config_print(a->kind, a->option, a->info.config, sizeof a->info.config);
     a->info.seconds = seconds_since(&start);
     return true;
 }
@@ -193,19 +197,19 @@ static uint64_t seal_of_kind(const accel *a)
 
 static void seal(accel *a)
 {
-    primitives_seal(&a->prims);
+    accel_primitives_seal(&a->prims);
     a->seal[0] = seal_of_base(a);
     a->seal[1] = seal_of_kind(a);
 }
 
 static accel *allocate(const struct accel_kind *kind, const accel_hooks *hooks, accel_error *error)
 {
-    struct memory m = {hooks->resize ? hooks->resize : memory_system, hooks->user, 0, 0, 0};
-    accel *a = memory_resize(&m, NULL, 0, kind->size);
+    struct memory m = {hooks->resize ? hooks->resize : accel_memory_system, hooks->user, 0, 0, 0};
+    accel *a = accel_memory_resize(&m, NULL, 0, kind->size);
     if (!a) {
-        error_set(error, ACCEL_NO_MEMORY,
-                  "build %s: no memory for %zu bytes in phase 'start'; nothing was built",
-                  kind->info.name, kind->size);
+        accel_error_set(error, ACCEL_NO_MEMORY,
+                        "build %s: no memory for %zu bytes in phase 'start'; nothing was built",
+                        kind->info.name, kind->size);
         return NULL;
     }
     memset(a, 0, kind->size);
@@ -221,7 +225,7 @@ __attribute__((noinline)) static accel_status build_scene(accel **out, const acc
                                                           accel_error *error)
 {
     double option[MAX_OPTIONS];
-    const struct accel_kind *kind = config_parse(config, option, error);
+    const struct accel_kind *kind = accel_config_parse(config, option, error);
     accel *a = kind ? allocate(kind, hooks, error) : NULL;
     if (!a)
         return error->status;
@@ -250,20 +254,22 @@ accel_status accel_build(accel **out, const accel_scene *scene, const char *conf
     if (out)
         *out = NULL;
     if (!out || !scene || (scene->count > 0 && !scene->geometries))
-        return error_set(error, ACCEL_BAD_ARGUMENT, "build: %s is NULL; nothing was built",
-                         !out     ? "out"
-                         : !scene ? "scene"
-                                  : "scene.geometries");
+        return accel_error_set(error, ACCEL_BAD_ARGUMENT, "build: %s is NULL; nothing was built",
+                               !out     ? "out"
+                               : !scene ? "scene"
+                                        : "scene.geometries");
     if (hooks->pilot_count > 0 && !hooks->pilot)
-        return error_set(error, ACCEL_BAD_ARGUMENT,
-                         "build: hooks.pilot is NULL, but hooks.pilot_count is %zu; nothing was "
-                         "built",
-                         hooks->pilot_count);
+        return accel_error_set(
+            error, ACCEL_BAD_ARGUMENT,
+            "build: hooks.pilot is NULL, but hooks.pilot_count is %zu; nothing was "
+            "built",
+            hooks->pilot_count);
     if (!contract_kept())
-        return error_set(error, ACCEL_BROKEN,
-                         "build: this library was compiled so that products and sums are rounded "
-                         "together, which makes answers wrong; compile all of its files with "
-                         "-ffp-contract=off; nothing was built");
+        return accel_error_set(
+            error, ACCEL_BROKEN,
+            "build: this library was compiled so that products and sums are rounded "
+            "together, which makes answers wrong; compile all of its files with "
+            "-ffp-contract=off; nothing was built");
     const fenv_t callers = environment_enter();
     const accel_status status = build_scene(out, scene, config, hooks, error);
     environment_leave(&callers);
@@ -276,9 +282,9 @@ void accel_free(accel *a)
         return;
     if (a->kind->release)
         a->kind->release(a);
-    primitives_free(&a->memory, &a->prims);
+    accel_primitives_free(&a->memory, &a->prims);
     struct memory m = a->memory;
-    memory_resize(&m, a, a->kind->size, 0);
+    accel_memory_resize(&m, a, a->kind->size, 0);
 }
 
 void accel_describe(const accel *a, accel_info *info)
@@ -313,9 +319,9 @@ bool accel_padded_box(const accel *a, accel_id id, accel_box *box)
 __attribute__((noinline)) static void check(const accel *a, accel_error *error)
 {
     if (a->seal[0] != seal_of_base(a) || a->seal[1] != seal_of_kind(a))
-        error_set(error, ACCEL_BROKEN, "accel: overwritten since it was built, %p",
-                  (const void *)a);
-    else if (primitives_validate(&a->prims, error) && a->prims.bounded.count > 0)
+        accel_error_set(error, ACCEL_BROKEN, "accel: overwritten since it was built, %p",
+                        (const void *)a);
+    else if (accel_primitives_validate(&a->prims, error) && a->prims.bounded.count > 0)
         a->kind->validate(a, error);
 }
 
@@ -326,7 +332,7 @@ accel_status accel_validate(const accel *a, accel_error *error)
     error->status = ACCEL_OK;
     error->text[0] = '\0';
     if (!a)
-        return error_set(error, ACCEL_BAD_ARGUMENT, "validate: the structure is NULL");
+        return accel_error_set(error, ACCEL_BAD_ARGUMENT, "validate: the structure is NULL");
     const fenv_t callers = environment_enter();
     check(a, error);
     environment_leave(&callers);

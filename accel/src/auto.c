@@ -212,10 +212,10 @@ static bool try_kind(struct chooser *c, struct candidate *k)
 static bool try_kinds(struct chooser *c)
 {
     size_t all = 0;
-    while (kinds[all])
+    while (accel_kind_list[all])
         all++;
     for (size_t i = 0; i < all; i++) {
-        struct candidate k = {.kind = (const struct accel_kind *)kinds[i]};
+        struct candidate k = {.kind = (const struct accel_kind *)accel_kind_list[i]};
         if (k.kind->choose)
             continue;
         if (!try_kind(c, &k))
@@ -224,7 +224,7 @@ static bool try_kinds(struct chooser *c)
         for (; at > 0 && k.seconds < c->tried[at - 1].seconds; at--)
             c->tried[at] = c->tried[at - 1];
         c->tried[at] = k;
-        if (!build_tick(c->build, (double)(i + 1) / (double)all))
+        if (!accel_build_tick(c->build, (double)(i + 1) / (double)all))
             return false;
     }
     return true;
@@ -233,7 +233,7 @@ static bool try_kinds(struct chooser *c)
 /* Rounded to tenths. */
 static struct number_text tenths(double x)
 {
-    return number_text(floor(10.0 * x + 0.5) / 10.0, 15);
+    return accel_number_text(floor(10.0 * x + 0.5) / 10.0, 15);
 }
 
 /* Says what was chosen and why. */
@@ -241,35 +241,36 @@ static void explain(const struct chooser *c)
 {
     const struct candidate *best = &c->tried[0];
     const bool given = c->build->hooks->pilot_count > 0;
-    build_note(c->build,
-               "auto: %s; pilot of %zu %s and what leaves their hits: %s nodes, %s "
-               "tests, %s calls each",
-               best->kind->info.name, pilot_count(c->build->hooks),
-               given ? "rays of the host" : "lines of its own", tenths(best->nodes).at,
-               tenths(best->tests).at, tenths(best->calls).at);
+    accel_build_note(c->build,
+                     "auto: %s; pilot of %zu %s and what leaves their hits: %s nodes, %s "
+                     "tests, %s calls each",
+                     best->kind->info.name, pilot_count(c->build->hooks),
+                     given ? "rays of the host" : "lines of its own", tenths(best->nodes).at,
+                     tenths(best->tests).at, tenths(best->calls).at);
     char list[120];
     int used = 0;
     for (size_t i = 0; i < c->count && used < (int)sizeof list; i++)
         used += snprintf(list + used, sizeof list - (size_t)used, " %s %s",
-                         c->tried[i].kind->info.name, number_text(c->tried[i].seconds, 3).at);
-    build_note(c->build, "auto: seconds for %s rays:%s",
-               number_text(c->build->a->option[RAYS], 6).at, list);
+                         c->tried[i].kind->info.name, accel_number_text(c->tried[i].seconds, 3).at);
+    accel_build_note(c->build, "auto: seconds for %s rays:%s",
+                     accel_number_text(c->build->a->option[RAYS], 6).at, list);
 }
 
 static bool choose(struct build *build, const struct accel_kind **kind)
 {
-    const struct accel_kind *linear = (const struct accel_kind *)kinds[0];
+    const struct accel_kind *linear = (const struct accel_kind *)accel_kind_list[0];
     const double rays = build->a->option[RAYS], n = (double)build->a->prims.bounded.count;
     struct chooser c = {.build = build};
     *kind = linear;
     weigh_primitives(&c);
     if (1e-9 * rays * n * linear->cost.triangle < WORTH_CHOOSING) {
-        build_note(build, "auto: linear; %s rays over %s primitives do not pay for a structure",
-                   number_text(rays, 6).at, number_text(n, 6).at);
+        accel_build_note(build,
+                         "auto: linear; %s rays over %s primitives do not pay for a structure",
+                         accel_number_text(rays, 6).at, accel_number_text(n, 6).at);
         return true;
     }
-    const bool fine = sample_take(build, &c.sample) && try_kinds(&c);
-    sample_free(&build->a->memory, &c.sample);
+    const bool fine = accel_sample_take(build, &c.sample) && try_kinds(&c);
+    accel_sample_free(&build->a->memory, &c.sample);
     if (!fine)
         return false;
     *kind = c.tried[0].kind;
@@ -277,7 +278,7 @@ static bool choose(struct build *build, const struct accel_kind **kind)
     return true;
 }
 
-const struct accel_kind auto_kind = {
+const struct accel_kind accel_auto_kind = {
     .info = {.name = "auto",
              .summary = "the kind with the lowest predicted time for this scene",
              .options = options,

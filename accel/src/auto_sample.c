@@ -130,7 +130,7 @@ static double surface(const struct primitives *p, const struct frame *f, uint32_
 /* Looks at the clock now and then. */
 static bool tick(struct build *build, size_t i)
 {
-    return i % TICK != 0 || build_tick(build, 0.0);
+    return i % TICK != 0 || accel_build_tick(build, 0.0);
 }
 
 /* The sum of all surfaces. */
@@ -153,10 +153,10 @@ static bool take(struct build *build, struct sample *s, uint32_t id, double chan
     box_add(&s->box, &p->box[id]);
     s->count++;
     s->joined += joins_next(p, id);
-    return add(&build->a->memory, s, p, id, sqrt(1.0 / chance)) || build_no_memory(build);
+    return add(&build->a->memory, s, p, id, sqrt(1.0 / chance)) || accel_build_no_memory(build);
 }
 
-bool sample_take(struct build *build, struct sample *s)
+bool accel_sample_take(struct build *build, struct sample *s)
 {
     const struct primitives *p = &build->a->prims;
     const size_t n = p->bounded.count;
@@ -180,7 +180,7 @@ bool sample_take(struct build *build, struct sample *s)
     return true;
 }
 
-void sample_free(struct memory *m, struct sample *s)
+void accel_sample_free(struct memory *m, struct sample *s)
 {
     array_free(m, &s->vertices);
     array_free(m, &s->indices);

@@ -31,10 +31,10 @@ struct sample {
     size_t joined;  /* triangles that share a vertex with the next one of the scene */
 };
 
-/* Fills *s: about SAMPLE primitives, or all where there are no more. *s must be zero; sample_free
- * ends it, also after a failure. */
-bool sample_take(struct build *build, struct sample *s);
+/* Fills *s: about SAMPLE primitives, or all where there are no more. *s must be zero;
+ * accel_sample_free ends it, also after a failure. */
+bool accel_sample_take(struct build *build, struct sample *s);
 
-void sample_free(struct memory *m, struct sample *s);
+void accel_sample_free(struct memory *m, struct sample *s);
 
 #endif

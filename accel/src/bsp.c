@@ -80,7 +80,7 @@ __attribute__((always_inline)) static inline void walk_as(const struct bsp *b, s
             q->nodes++;
             depth = enter(b, q, &in, stack, depth, cap, common, &any);
         } else {
-            query_test_list(q, b->refs.at + node->first, node->count);
+            accel_query_test_list(q, b->refs.at + node->first, node->count);
             if (query_done(q))
                 return;
             cap = query_cap(q);
@@ -130,8 +130,8 @@ static const accel_option options[] = {
 static bool build(struct build *build)
 {
     struct bsp *b = (struct bsp *)build->a;
-    build_phase(build, "bsp");
-    if (!bsp_build(build, b, (struct bsp_rule){b->base.option[LEAF], b->base.option[DEPTH]}))
+    accel_build_phase(build, "bsp");
+    if (!accel_bsp_build(build, b, (struct bsp_rule){b->base.option[LEAF], b->base.option[DEPTH]}))
         return false;
     array_trim(&b->base.memory, &b->nodes);
     array_trim(&b->base.memory, &b->refs);
@@ -140,7 +140,7 @@ static bool build(struct build *build)
 
 static bool validate(const accel *a, accel_error *error)
 {
-    return bsp_validate((const struct bsp *)a, error);
+    return accel_bsp_validate((const struct bsp *)a, error);
 }
 
 static void release(accel *a)
@@ -150,7 +150,7 @@ static void release(accel *a)
     array_free(&a->memory, &b->refs);
 }
 
-const struct accel_kind bsp_kind = {
+const struct accel_kind accel_bsp_kind = {
     .info = {.name = "bsp",
              .summary = "kd-tree by the surface-area heuristic",
              .options = options,

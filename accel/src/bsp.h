@@ -49,9 +49,9 @@ struct bsp_rule {
 };
 
 /* Builds the tree over all bounded primitives. */
-bool bsp_build(struct build *build, struct bsp *bsp, struct bsp_rule rule);
+bool accel_bsp_build(struct build *build, struct bsp *bsp, struct bsp_rule rule);
 
 /* Checks the invariant. */
-bool bsp_validate(const struct bsp *bsp, accel_error *error);
+bool accel_bsp_validate(const struct bsp *bsp, accel_error *error);
 
 #endif

@@ -266,7 +266,7 @@ static bool push_half(struct grower *g, const struct task *t, const struct split
 {
     size_t at = g->stack.count;
     if (!array_extend(&g->build->a->memory, &g->stack, count))
-        return build_no_memory(g->build);
+        return accel_build_no_memory(g->build);
     for (uint32_t i = 0; i < t->count; i++)
         if (meets_half(box_of(g, t, i), s, half))
             g->stack.at[at++] = g->stack.at[t->begin + i];
@@ -295,13 +295,13 @@ static bool make_leaf(struct grower *g, const struct task *t, uint32_t node, str
     struct bsp *b = g->bsp;
     const size_t first = b->refs.count;
     if (first + t->count > ACCEL_NONE) {
-        error_set(g->build->error, ACCEL_TOO_LARGE,
-                  "build bsp: more than 4294967295 references; nothing was built, allow more "
-                  "primitives per leaf or less depth");
+        accel_error_set(g->build->error, ACCEL_TOO_LARGE,
+                        "build bsp: more than 4294967295 references; nothing was built, allow more "
+                        "primitives per leaf or less depth");
         return false;
     }
     if (!array_extend(&b->base.memory, &b->refs, t->count))
-        return build_no_memory(g->build);
+        return accel_build_no_memory(g->build);
     memcpy(b->refs.at + first, g->stack.at + t->begin, t->count * sizeof(uint32_t));
     b->nodes.at[node] =
         (struct bsp_node){.count = t->count, .first = (uint32_t)first, .bits = BSP_LEAF};
@@ -367,13 +367,14 @@ static bool grow(struct grower *g, struct task *t, struct subtree *out)
     const size_t node = b->nodes.count, refs = b->refs.count;
     const double done = g->done;
     if (node >= ACCEL_NONE) {
-        error_set(g->build->error, ACCEL_TOO_LARGE,
-                  "build bsp: more than 4294967295 nodes; nothing was built, allow more primitives "
-                  "per leaf");
+        accel_error_set(
+            g->build->error, ACCEL_TOO_LARGE,
+            "build bsp: more than 4294967295 nodes; nothing was built, allow more primitives "
+            "per leaf");
         return false;
     }
     if (!array_extend(&b->base.memory, &b->nodes, 1))
-        return build_no_memory(g->build);
+        return accel_build_no_memory(g->build);
     if (small_enough(g, t) || !find_split(g, t, &s))
         return make_leaf(g, t, (uint32_t)node, out);
     const uint32_t count[2] = {count_half(g, t, &s, 0), count_half(g, t, &s, 1)};
@@ -402,7 +403,7 @@ static bool prepare(struct grower *g, struct task *root)
                           .count = (uint32_t)p->bounded.count,
                           .budget = BUDGET * (double)p->bounded.count};
     if (!array_extend(&g->build->a->memory, &g->stack, p->bounded.count))
-        return build_no_memory(g->build);
+        return accel_build_no_memory(g->build);
     memcpy(g->stack.at, p->bounded.at, p->bounded.count * sizeof(uint32_t));
     return true;
 }
@@ -420,16 +421,18 @@ static void describe(const struct grower *g, const struct subtree *root)
     const size_t empty = (size_t)(info->nodes + 1 - info->leaves);
     const size_t made = b->nodes.count * sizeof *b->nodes.at + b->refs.count * sizeof *b->refs.at;
     if (empty > 0)
-        build_left_out(g->build, empty * sizeof *b->nodes.at, made,
-                       "%zu of %zu cells are empty: not stored", empty, (size_t)info->nodes + 1);
+        accel_build_left_out(g->build, empty * sizeof *b->nodes.at, made,
+                             "%zu of %zu cells are empty: not stored", empty,
+                             (size_t)info->nodes + 1);
     if (info->nodes == 0)
-        build_left_out(g->build, 2 * sizeof *b->nodes.at, made, "few primitives: a list, no tree");
+        accel_build_left_out(g->build, 2 * sizeof *b->nodes.at, made,
+                             "few primitives: a list, no tree");
     if (g->cut_short > 0)
-        build_note(g->build, "bsp: the budget of %d references per primitive ended %u splits",
-                   BUDGET, g->cut_short);
+        accel_build_note(g->build, "bsp: the budget of %d references per primitive ended %u splits",
+                         BUDGET, g->cut_short);
 }
 
-bool bsp_build(struct build *build, struct bsp *bsp, struct bsp_rule rule)
+bool accel_bsp_build(struct build *build, struct bsp *bsp, struct bsp_rule rule)
 {
     struct grower g = {.build = build, .bsp = bsp, .rule = rule};
     struct task task;

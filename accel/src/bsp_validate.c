@@ -18,7 +18,7 @@ struct checker {
 
 static bool broken(const struct checker *c, const char *what, size_t number)
 {
-    error_set(c->error, ACCEL_BROKEN, "bsp: %s %zu", what, number);
+    accel_error_set(c->error, ACCEL_BROKEN, "bsp: %s %zu", what, number);
     return false;
 }
 
@@ -47,7 +47,8 @@ static bool check_half(struct checker *c, const struct bsp_node *node, int half,
     if (half && !empty && node->first != c->nodes)
         return broken(c, "the half above does not follow the one below, node", node->first);
     size_t kept;
-    uint32_t *list = primitives_meeting(&c->bsp->base.prims, ids, count, &box, &kept, c->error);
+    uint32_t *list =
+        accel_primitives_meeting(&c->bsp->base.prims, ids, count, &box, &kept, c->error);
     if (!list)
         return false;
     const bool fine = !empty      ? check_cell(c, &box, list, kept, depth)
@@ -74,7 +75,7 @@ static bool check_cell(struct checker *c, const accel_box *box, const uint32_t *
            check_half(c, node, 1, box, ids, count, depth + 1);
 }
 
-bool bsp_validate(const struct bsp *bsp, accel_error *error)
+bool accel_bsp_validate(const struct bsp *bsp, accel_error *error)
 {
     struct checker c = {bsp, error, 0, 0};
     const struct primitives *p = &bsp->base.prims;

@@ -20,25 +20,25 @@ static const accel_option options[] = {[ISA] = WIDE_ISA_OPTION};
 static bool build(struct build *build)
 {
     struct bvh *b = (struct bvh *)build->a;
-    return wide_form_build(build, &b->tree, &b->base.option[ISA], WIDE_BY_COST, NULL);
+    return accel_wide_form_build(build, &b->tree, &b->base.option[ISA], WIDE_BY_COST, NULL);
 }
 
 static void walk(const accel *a, struct query *q)
 {
-    wide_form_walk(&((const struct bvh *)a)->tree, q);
+    accel_wide_form_walk(&((const struct bvh *)a)->tree, q);
 }
 
 static bool validate(const accel *a, accel_error *error)
 {
-    return wide_validate(a, &((const struct bvh *)a)->tree, error);
+    return accel_wide_validate(a, &((const struct bvh *)a)->tree, error);
 }
 
 static void release(accel *a)
 {
-    wide_free(&a->memory, &((struct bvh *)a)->tree);
+    accel_wide_free(&a->memory, &((struct bvh *)a)->tree);
 }
 
-const struct accel_kind bvh_kind = {
+const struct accel_kind accel_bvh_kind = {
     .info = {.name = "bvh",
              .summary = "hierarchy of boxes by the surface-area heuristic",
              .options = options,

@@ -25,25 +25,25 @@
 /* The parts that touch, or that are within the gap that the user wants. */
 static bool make_given(struct parts *p, double connectivity)
 {
-    return parts_make_units(p) && parts_connect(p, connectivity);
+    return accel_parts_make_units(p) && accel_parts_connect(p, connectivity);
 }
 
 static bool make_auto(struct parts *p)
 {
     struct look look;
     p->crumb = PARTS_CRUMB;
-    if (!parts_look(p, &look) || !parts_bin(p, &look))
+    if (!accel_parts_look(p, &look) || !accel_parts_bin(p, &look))
         return false;
     if (look.loose)
         p->crumb = ACCEL_NONE;
-    else if (p->part.count > 1 && !parts_join_touching(p))
+    else if (p->part.count > 1 && !accel_parts_join_touching(p))
         return false;
-    return parts_join_crumbs(p, look.loose ? &look : NULL) && parts_join_nested(p);
+    return accel_parts_join_crumbs(p, look.loose ? &look : NULL) && accel_parts_join_nested(p);
 }
 
 static bool make_parts(struct parts *p, struct cluster_rule rule)
 {
-    p->sizes = sizes_of(p->build, rule.octaves);
+    p->sizes = accel_sizes_of(p->build, rule.octaves);
     return isnan(rule.connectivity) ? make_auto(p) : make_given(p, rule.connectivity);
 }
 
@@ -53,8 +53,8 @@ static bool make_parts(struct parts *p, struct cluster_rule rule)
 static bool take_clusters(struct parts *p, struct clustering *c, struct keyed *order, size_t count)
 {
     struct memory *m = &p->build->a->memory;
-    if (!order_by_key(m, order, count) || !array_extend(m, &c->clusters, count))
-        return build_no_memory(p->build);
+    if (!accel_order_by_key(m, order, count) || !array_extend(m, &c->clusters, count))
+        return accel_build_no_memory(p->build);
     uint32_t first = 0;
     for (size_t i = 0; i < count; i++) {
         struct cluster *part = &p->part.at[order[i].value];
@@ -75,12 +75,12 @@ static bool order_clusters(struct parts *p, struct clustering *c)
         const struct cluster *part = &p->part.at[i];
         if (part->first != i)
             continue;
-        fine = array_extend(m, &order, 1) || build_no_memory(p->build);
+        fine = array_extend(m, &order, 1) || accel_build_no_memory(p->build);
         if (!fine)
             break;
         const accel_box unit = frame_box(&p->sizes.frame, &part->box);
         order.at[order.count - 1] =
-            (struct keyed){(uint64_t)part->size_class << 57 | order_morton(&unit), i};
+            (struct keyed){(uint64_t)part->size_class << 57 | accel_order_morton(&unit), i};
     }
     fine = fine && take_clusters(p, c, order.at, order.count);
     array_free(m, &order);
@@ -92,10 +92,10 @@ static bool find_homes(struct parts *p, struct ids *home)
 {
     const size_t pieces = p->units.count > 0 ? p->units.count : p->part.count;
     if (!array_extend(&p->build->a->memory, home, pieces))
-        return build_no_memory(p->build);
+        return accel_build_no_memory(p->build);
     for (size_t i = 0; i < pieces; i++) {
         const uint32_t part = p->units.count > 0 ? p->units.at[i].home : (uint32_t)i;
-        home->at[i] = p->part.at[parts_root(p, part)].count;
+        home->at[i] = p->part.at[accel_parts_root(p, part)].count;
     }
     return true;
 }
@@ -118,7 +118,7 @@ static bool order_ids(struct parts *p, struct clustering *c)
     struct memory *m = &p->build->a->memory;
     struct ids home = {0};
     if (!array_extend(m, &c->order, bounded->count))
-        return build_no_memory(p->build);
+        return accel_build_no_memory(p->build);
     if (c->clusters.count == 1) {
         memcpy(c->order.at, bounded->at, bounded->count * sizeof *bounded->at);
         return true;
@@ -130,8 +130,8 @@ static bool order_ids(struct parts *p, struct clustering *c)
     return fine;
 }
 
-bool cluster_scene(struct build *build, struct clustering *c, struct cluster_rule rule, double from,
-                   double to)
+bool accel_cluster_scene(struct build *build, struct clustering *c, struct cluster_rule rule,
+                         double from, double to)
 {
     struct memory *m = &build->a->memory;
     struct parts p = {.build = build, .now = 0.5 * (from + to)};
@@ -146,7 +146,7 @@ bool cluster_scene(struct build *build, struct clustering *c, struct cluster_rul
     return fine;
 }
 
-void cluster_free(struct memory *m, struct clustering *c)
+void accel_cluster_free(struct memory *m, struct clustering *c)
 {
     array_free(m, &c->order);
     array_free(m, &c->clusters);

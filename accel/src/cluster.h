@@ -34,12 +34,12 @@ struct cluster_rule {
 };
 
 /* Finds the clusters of the bounded primitives, of which there is at least one. Progress of the
- * phase runs from `from` to `to`. *c must be zero; cluster_free ends it, also after a failure.
- * Expected time and memory are linear in the primitives. */
-bool cluster_scene(struct build *build, struct clustering *c, struct cluster_rule rule, double from,
-                   double to);
+ * phase runs from `from` to `to`. *c must be zero; accel_cluster_free ends it, also after a
+ * failure. Expected time and memory are linear in the primitives. */
+bool accel_cluster_scene(struct build *build, struct clustering *c, struct cluster_rule rule,
+                         double from, double to);
 
-void cluster_free(struct memory *m, struct clustering *c);
+void accel_cluster_free(struct memory *m, struct clustering *c);
 
 /* The options of kinds that hold clusters. */
 #define CLUSTER_CONNECTIVITY_OPTION                                                                \

@@ -113,7 +113,7 @@ static inline void meet(const struct binner *b, struct slabs *s, const struct gu
 static uint32_t new_part(struct binner *b, uint32_t class, bool loose)
 {
     uint32_t made;
-    if (!parts_new(b->parts, class, &made))
+    if (!accel_parts_new(b->parts, class, &made))
         return ACCEL_NONE;
     if (!loose && !array_extend(memory_of(b), &b->slabs, 1))
         return ACCEL_NONE;
@@ -131,7 +131,7 @@ static inline uint32_t part_of(struct binner *b, uint32_t class, const uint32_t 
         part = &b->table[g->first + ((cell[2] << g->octave | cell[1]) << g->octave | cell[0])];
     } else {
         const uint64_t key = cell_key(class, b->grid[class].octave, cell[0], cell[1], cell[2]);
-        struct cell_slot *slot = cells_at(memory_of(b), &b->cells, key);
+        struct cell_slot *slot = accel_cells_at(memory_of(b), &b->cells, key);
         if (!slot)
             return ACCEL_NONE;
         part = &slot->value;
@@ -159,7 +159,7 @@ __attribute__((always_inline)) static inline bool fill_as(struct binner *b, bool
             g = guest_of(&frame, &b->grid[class], box);
         const uint32_t number = part_of(b, class, g.cell, loose);
         if (number == ACCEL_NONE)
-            return build_no_memory(p->build);
+            return accel_build_no_memory(p->build);
         struct cluster *part = &p->part.at[number];
         piece_of[i] = number;
         part->count++;
@@ -183,9 +183,9 @@ static bool make_table(struct binner *b)
 {
     if (!table_pays(b->table_size, b->parts->build->a->prims.bounded.count))
         return true;
-    b->table = memory_resize(memory_of(b), NULL, 0, b->table_size * sizeof *b->table);
+    b->table = accel_memory_resize(memory_of(b), NULL, 0, b->table_size * sizeof *b->table);
     if (!b->table)
-        return build_no_memory(b->parts->build);
+        return accel_build_no_memory(b->parts->build);
     memset(b->table, 0xff, b->table_size * sizeof *b->table);
     return true;
 }
@@ -223,7 +223,7 @@ static bool plan_pieces(struct binner *b, bool *crumbs)
     const struct parts *p = b->parts;
     size_t cut = 0, crumbled = 0;
     if (!array_extend(memory_of(b), &b->first_of, p->part.count))
-        return build_no_memory(p->build);
+        return accel_build_no_memory(p->build);
     for (size_t i = 0; i < p->part.count; i++) {
         const uint32_t pieces = pieces_of(&b->slabs.at[i]), count = p->part.at[i].count;
         const bool split =
@@ -236,7 +236,7 @@ static bool plan_pieces(struct binner *b, bool *crumbs)
     if (*crumbs || cut == 0)
         return true;
     if (!array_extend(memory_of(b), &b->pieces, cut))
-        return build_no_memory(p->build);
+        return accel_build_no_memory(p->build);
     memset(b->pieces.at, 0xff, cut * sizeof *b->pieces.at);
     return true;
 }
@@ -275,7 +275,7 @@ static bool move(struct binner *b)
         uint32_t *piece = &b->pieces.at[b->first_of.at[part] + piece_of(b, part, box)];
         if (*piece == ACCEL_NONE && p->part.at[part].count == 0)
             *piece = part;
-        else if (*piece == ACCEL_NONE && !parts_new(p, p->part.at[part].size_class, piece))
+        else if (*piece == ACCEL_NONE && !accel_parts_new(p, p->part.at[part].size_class, piece))
             return false;
         p->piece_of.at[i] = *piece;
         p->part.at[*piece].count++;
@@ -292,13 +292,13 @@ static bool reserve(struct binner *b, bool loose)
     const size_t parts = 64 + b->parts->build->a->prims.bounded.count / 32;
     return (array_reserve(memory_of(b), &b->parts->part, parts) &&
             (loose || array_reserve(memory_of(b), &b->slabs, parts))) ||
-           build_no_memory(b->parts->build);
+           accel_build_no_memory(b->parts->build);
 }
 
 static bool make(struct binner *b, bool *loose)
 {
     if (!array_extend(memory_of(b), &b->parts->piece_of, b->parts->build->a->prims.bounded.count))
-        return build_no_memory(b->parts->build);
+        return accel_build_no_memory(b->parts->build);
     if (!make_table(b) || !reserve(b, *loose))
         return false;
     if (*loose)
@@ -306,7 +306,7 @@ static bool make(struct binner *b, bool *loose)
     return fill_as(b, false) && plan_pieces(b, loose) && (b->pieces.count == 0 || move(b));
 }
 
-bool parts_bin(struct parts *p, struct look *look)
+bool accel_parts_bin(struct parts *p, struct look *look)
 {
     struct binner b = {.parts = p};
     struct memory *m = memory_of(&b);
@@ -323,8 +323,8 @@ bool parts_bin(struct parts *p, struct look *look)
     const bool fine = make(&b, &look->loose);
     p->looks += p->build->a->prims.bounded.count;
     if (b.table)
-        memory_resize(m, b.table, b.table_size * sizeof *b.table, 0);
-    cells_free(m, &b.cells);
+        accel_memory_resize(m, b.table, b.table_size * sizeof *b.table, 0);
+    accel_cells_free(m, &b.cells);
     array_free(m, &b.slabs);
     array_free(m, &b.first_of);
     array_free(m, &b.pieces);

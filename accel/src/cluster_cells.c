@@ -6,8 +6,9 @@ enum { SMALLEST_ROOM = 64 };
 static bool grow(struct memory *m, struct cells *c, size_t room)
 {
     const struct cells old = *c;
-    struct cell_slot *slot =
-        room > SIZE_MAX / sizeof *slot ? NULL : memory_resize(m, NULL, 0, room * sizeof *slot);
+    struct cell_slot *slot = room > SIZE_MAX / sizeof *slot
+                                 ? NULL
+                                 : accel_memory_resize(m, NULL, 0, room * sizeof *slot);
     if (!slot)
         return false;
     for (size_t i = 0; i < room; i++)
@@ -17,11 +18,11 @@ static bool grow(struct memory *m, struct cells *c, size_t room)
     for (size_t i = 0; i < old.room; i++)
         if (old.slot[i].value != ACCEL_NONE)
             *cells_probe(c, old.slot[i].key) = old.slot[i];
-    memory_resize(m, old.slot, old.room * sizeof *slot, 0);
+    accel_memory_resize(m, old.slot, old.room * sizeof *slot, 0);
     return true;
 }
 
-bool cells_reserve(struct memory *m, struct cells *c, size_t count)
+bool accel_cells_reserve(struct memory *m, struct cells *c, size_t count)
 {
     size_t room = SMALLEST_ROOM;
     while (room / 2 < count)
@@ -29,7 +30,7 @@ bool cells_reserve(struct memory *m, struct cells *c, size_t count)
     return grow(m, c, room);
 }
 
-struct cell_slot *cells_at(struct memory *m, struct cells *c, uint64_t key)
+struct cell_slot *accel_cells_at(struct memory *m, struct cells *c, uint64_t key)
 {
     if (2 * c->used >= c->room && !grow(m, c, c->room ? 2 * c->room : SMALLEST_ROOM))
         return NULL;
@@ -41,8 +42,8 @@ struct cell_slot *cells_at(struct memory *m, struct cells *c, uint64_t key)
     return s;
 }
 
-void cells_free(struct memory *m, struct cells *c)
+void accel_cells_free(struct memory *m, struct cells *c)
 {
-    memory_resize(m, c->slot, c->room * sizeof *c->slot, 0);
+    accel_memory_resize(m, c->slot, c->room * sizeof *c->slot, 0);
     *c = (struct cells){0};
 }

@@ -89,11 +89,11 @@ static inline uint32_t cells_get(const struct cells *c, uint64_t key)
 }
 
 /* Makes room for so many cells. Zero before. */
-bool cells_reserve(struct memory *m, struct cells *c, size_t count);
+bool accel_cells_reserve(struct memory *m, struct cells *c, size_t count);
 
 /* The cell's slot, for the caller to set its value at once if it is ACCEL_NONE. NULL: no memory. */
-struct cell_slot *cells_at(struct memory *m, struct cells *c, uint64_t key);
+struct cell_slot *accel_cells_at(struct memory *m, struct cells *c, uint64_t key);
 
-void cells_free(struct memory *m, struct cells *c);
+void accel_cells_free(struct memory *m, struct cells *c);
 
 #endif

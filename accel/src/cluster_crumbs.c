@@ -12,7 +12,7 @@
  * pass, linear in the clusters of the one before; there are at most CELLS_OCTAVES of them, and
  * after the first few hardly anything is left to look at.
  *
- * The predicted cost of a partition is that of its clusters (parts_cost) and of the tree over
+ * The predicted cost of a partition is that of its clusters (accel_parts_cost) and of the tree over
  * them: a ray that meets the box around all visits about log2 of their number in nodes.
  */
 #include "cluster_parts.h"
@@ -65,7 +65,7 @@ static bool collect(struct gatherer *g, uint32_t class, bool all)
     struct memory *m = memory_of(g);
     if (!array_reserve(m, &g->crumbs, p->part.count) || !array_reserve(m, &g->now, p->part.count) ||
         !array_reserve(m, &g->cluster_of, p->part.count))
-        return build_no_memory(p->build);
+        return accel_build_no_memory(p->build);
     g->box = box_empty();
     g->best_cost = (double)INFINITY;
     for (size_t i = 0; i < p->part.count; i++) {
@@ -107,7 +107,7 @@ static bool sort(struct gatherer *g, double gap)
     g->order.count = g->group.count = 0;
     if (!array_extend(memory_of(g), &g->order, g->now.count) ||
         !array_extend(memory_of(g), &g->group, g->now.count))
-        return build_no_memory(g->parts->build);
+        return accel_build_no_memory(g->parts->build);
     for (size_t i = 0; i < g->now.count; i++)
         next[cells_for(&g->now.at[i].box, gap)]++;
     for (uint32_t o = 0; o < CELLS_OCTAVES; o++) {
@@ -131,13 +131,13 @@ static bool enter(struct gatherer *g, struct touching *t, uint32_t cluster, uint
                   double gap)
 {
     const accel_box *unit = &g->now.at[cluster].box;
-    const uint32_t group = touching_enter(memory_of(g), t, unit, rule_for(octave, gap));
+    const uint32_t group = accel_touching_enter(memory_of(g), t, unit, rule_for(octave, gap));
     if (group == ACCEL_NONE)
-        return build_no_memory(g->parts->build);
+        return accel_build_no_memory(g->parts->build);
     g->group.at[cluster] = group;
     for (uint32_t o = 0; o < octave; o++)
         if (g->octave_at[o] < g->octave_at[o + 1])
-            touching_join(t, unit, rule_for(o, gap), group);
+            accel_touching_join(t, unit, rule_for(o, gap), group);
     return true;
 }
 
@@ -157,7 +157,7 @@ static bool regroup(struct gatherer *g, size_t groups)
     g->number.count = g->next.count = 0;
     if (!array_extend(memory_of(g), &g->number, groups) ||
         !array_reserve(memory_of(g), &g->next, g->now.count))
-        return build_no_memory(g->parts->build);
+        return accel_build_no_memory(g->parts->build);
     memset(g->number.at, 0xff, groups * sizeof *g->number.at);
     for (size_t i = 0; i < g->now.count; i++) {
         uint32_t *number = &g->number.at[g->group.at[i]];
@@ -181,13 +181,13 @@ static bool regroup(struct gatherer *g, size_t groups)
 static bool join_over(struct gatherer *g, double gap)
 {
     struct touching t = {0};
-    const bool room = touching_reserve(memory_of(g), &t, g->now.count);
-    bool fine = room ? sort(g, gap) && connect(g, &t, gap) : build_no_memory(g->parts->build);
+    const bool room = accel_touching_reserve(memory_of(g), &t, g->now.count);
+    bool fine = room ? sort(g, gap) && connect(g, &t, gap) : accel_build_no_memory(g->parts->build);
     for (size_t i = 0; fine && i < g->now.count; i++)
-        g->group.at[i] = touching_root(&t, g->group.at[i]);
+        g->group.at[i] = accel_touching_root(&t, g->group.at[i]);
     fine = fine && regroup(g, t.groups.count);
     g->parts->looks += t.looks;
-    touching_free(memory_of(g), &t);
+    accel_touching_free(memory_of(g), &t);
     return fine;
 }
 
@@ -197,13 +197,13 @@ static bool join_in_cells(struct gatherer *g, struct cells *cells, uint32_t octa
     uint32_t groups = 0;
     g->group.count = 0;
     if (!array_extend(memory_of(g), &g->group, g->now.count))
-        return build_no_memory(g->parts->build);
+        return accel_build_no_memory(g->parts->build);
     g->parts->looks += g->now.count;
     for (size_t i = 0; i < g->now.count; i++) {
-        const uint64_t key = order_morton(&g->now.at[i].box) >> 3 * (CELLS_OCTAVES - octave);
-        struct cell_slot *slot = cells_at(memory_of(g), cells, key);
+        const uint64_t key = accel_order_morton(&g->now.at[i].box) >> 3 * (CELLS_OCTAVES - octave);
+        struct cell_slot *slot = accel_cells_at(memory_of(g), cells, key);
         if (!slot)
-            return build_no_memory(g->parts->build);
+            return accel_build_no_memory(g->parts->build);
         if (slot->value == ACCEL_NONE)
             slot->value = groups++;
         g->group.at[i] = slot->value;
@@ -221,7 +221,7 @@ static bool coarsen(struct gatherer *g)
     for (; o > 0 && g->now.count > g->primitives / FEWEST; o--) {
         struct cells cells = {0};
         const bool fine = join_in_cells(g, &cells, o);
-        cells_free(memory_of(g), &cells);
+        accel_cells_free(memory_of(g), &cells);
         if (!fine)
             return false;
     }
@@ -234,7 +234,7 @@ static double cost(const struct gatherer *g)
 {
     double sum = box_area(&g->box) * log2((double)g->now.count);
     for (size_t i = 0; i < g->now.count; i++)
-        sum += parts_unit_cost(g->parts, &g->now.at[i].box, g->now.at[i].count);
+        sum += accel_parts_unit_cost(g->parts, &g->now.at[i].box, g->now.at[i].count);
     return sum;
 }
 
@@ -273,11 +273,11 @@ static bool apply(struct gatherer *g)
     struct parts *p = g->parts;
     g->number.count = 0;
     if (!array_extend(memory_of(g), &g->number, g->crumbs.count))
-        return build_no_memory(p->build);
+        return accel_build_no_memory(p->build);
     memset(g->number.at, 0xff, g->crumbs.count * sizeof *g->number.at);
     for (size_t i = 0; i < g->crumbs.count; i++) {
         uint32_t *root = &g->number.at[g->best.at[i]];
-        *root = *root == ACCEL_NONE ? g->crumbs.at[i] : parts_join(p, *root, g->crumbs.at[i]);
+        *root = *root == ACCEL_NONE ? g->crumbs.at[i] : accel_parts_join(p, *root, g->crumbs.at[i]);
     }
     return true;
 }
@@ -293,7 +293,7 @@ static bool too_many(const struct gatherer *g)
 static bool gather(struct gatherer *g, double gap, bool touching)
 {
     if (!array_extend(memory_of(g), &g->best, g->crumbs.count))
-        return build_no_memory(g->parts->build);
+        return accel_build_no_memory(g->parts->build);
     if (touching) {
         if (!join_over(g, 0.0))
             return false;
@@ -324,7 +324,7 @@ static bool gather_class(struct parts *p, uint32_t class, double gap, bool touch
     return fine;
 }
 
-bool parts_join_touching(struct parts *p)
+bool accel_parts_join_touching(struct parts *p)
 {
     for (uint32_t c = 0; c < p->sizes.classes; c++)
         if (!gather_class(p, c, 0.0, true))
@@ -332,7 +332,7 @@ bool parts_join_touching(struct parts *p)
     return true;
 }
 
-bool parts_join_crumbs(struct parts *p, const struct look *look)
+bool accel_parts_join_crumbs(struct parts *p, const struct look *look)
 {
     for (uint32_t c = 0; c < p->sizes.classes; c++)
         if (!gather_class(p, c, look ? ldexp(0.5, -(int)look->octave[c]) : 0.0, false))

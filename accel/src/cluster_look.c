@@ -50,9 +50,9 @@ static bool scatter(const struct parts *p, struct keyed *at, size_t count)
         const accel_box unit = frame_box(&p->sizes.frame, box);
         const uint32_t octave = sizes_octave(&p->sizes, box);
         const uint64_t class = p->sizes.class_of[octave];
-        at[i] = (struct keyed){class << 3 * CELLS_OCTAVES | order_morton(&unit), octave};
+        at[i] = (struct keyed){class << 3 * CELLS_OCTAVES | accel_order_morton(&unit), octave};
     }
-    return order_by_key(memory_of(p), at, count) || build_no_memory(p->build);
+    return accel_order_by_key(memory_of(p), at, count) || accel_build_no_memory(p->build);
 }
 
 /* Who shares the cells of one octave. */
@@ -133,15 +133,15 @@ static void judge(const struct parts *p, const struct keyed *at, size_t count, s
     look->loose = 2 * thin > count;
 }
 
-bool parts_look(const struct parts *p, struct look *look)
+bool accel_parts_look(const struct parts *p, struct look *look)
 {
     const size_t count = sample_size(p->build->a->prims.bounded.count);
-    struct keyed *at = memory_resize(memory_of(p), NULL, 0, count * sizeof *at);
+    struct keyed *at = accel_memory_resize(memory_of(p), NULL, 0, count * sizeof *at);
     if (!at)
-        return build_no_memory(p->build);
+        return accel_build_no_memory(p->build);
     const bool fine = scatter(p, at, count);
     if (fine)
         judge(p, at, count, look);
-    memory_resize(memory_of(p), at, count * sizeof *at, 0);
+    accel_memory_resize(memory_of(p), at, count * sizeof *at, 0);
     return fine;
 }

@@ -42,7 +42,7 @@ static bool measure(struct connector *k)
 /* The grid of a unit. */
 static uint32_t unit_grid(const struct parts *p, const struct unit *u)
 {
-    return sizes_grid(p->sizes.top_of[u->octave], sizes_octave(&p->sizes, &u->box));
+    return accel_sizes_grid(p->sizes.top_of[u->octave], sizes_octave(&p->sizes, &u->box));
 }
 
 /* Counting sort of the units by grid. */
@@ -59,7 +59,7 @@ static bool sort_units(struct connector *k)
     }
     k->begin[CELLS_OCTAVES] = sum;
     if (!array_extend(memory_of(p), &k->order, sum))
-        return build_no_memory(p->build);
+        return accel_build_no_memory(p->build);
     for (size_t i = 0; i < p->units.count; i++)
         k->order.at[next[unit_grid(p, &p->units.at[i])]++] = (uint32_t)i;
     return true;
@@ -80,13 +80,13 @@ static bool connect_unit(struct connector *k, struct unit *u, uint32_t grid)
     const struct parts *p = k->parts;
     const accel_box box = frame_box(&p->sizes.frame, &u->box);
     const struct touch_rule own = rule_for(k, u->octave, grid);
-    u->home = touching_enter(memory_of(p), &k->touching, &box, own);
+    u->home = accel_touching_enter(memory_of(p), &k->touching, &box, own);
     if (u->home == ACCEL_NONE)
-        return build_no_memory(p->build);
+        return accel_build_no_memory(p->build);
     if (grid >= SIZES_PER_GRID && k->begin[grid - SIZES_PER_GRID] != k->begin[grid - 1]) {
         const struct touch_rule next = rule_for(k, u->octave, grid - SIZES_PER_GRID);
         if (next.octave != own.octave)
-            touching_join(&k->touching, &box, next, u->home);
+            accel_touching_join(&k->touching, &box, next, u->home);
     }
     return true;
 }
@@ -110,8 +110,8 @@ static bool number_parts(struct connector *k, uint32_t *number)
     memset(number, 0xff, k->touching.groups.count * sizeof *number);
     for (size_t i = 0; i < p->units.count; i++) {
         struct unit *u = &p->units.at[i];
-        uint32_t *part = &number[touching_root(&k->touching, u->home)];
-        if (*part == ACCEL_NONE && !parts_new(p, p->sizes.class_of[u->octave], part))
+        uint32_t *part = &number[accel_touching_root(&k->touching, u->home)];
+        if (*part == ACCEL_NONE && !accel_parts_new(p, p->sizes.class_of[u->octave], part))
             return false;
         u->home = *part;
         box_add(&p->part.at[*part].box, &u->box);
@@ -126,20 +126,20 @@ static bool make_parts(struct connector *k)
 {
     struct memory *m = memory_of(k->parts);
     const size_t groups = k->touching.groups.count;
-    uint32_t *number = memory_resize(m, NULL, 0, groups * sizeof *number);
+    uint32_t *number = accel_memory_resize(m, NULL, 0, groups * sizeof *number);
     if (!number)
-        return build_no_memory(k->parts->build);
+        return accel_build_no_memory(k->parts->build);
     const bool fine = number_parts(k, number);
-    memory_resize(m, number, groups * sizeof *number, 0);
+    accel_memory_resize(m, number, groups * sizeof *number, 0);
     return fine;
 }
 
-bool parts_connect(struct parts *p, double connectivity)
+bool accel_parts_connect(struct parts *p, double connectivity)
 {
     struct connector k = {.parts = p, .connectivity = connectivity};
     const bool fine = measure(&k) && connect_units(&k) && make_parts(&k);
     p->looks += k.touching.looks;
     array_free(memory_of(p), &k.order);
-    touching_free(memory_of(p), &k.touching);
+    accel_touching_free(memory_of(p), &k.touching);
     return fine;
 }

@@ -7,9 +7,9 @@
  *
  * Parts are taken from large to small. Each looks for parts already taken that its box overlaps,
  * by a grid of cells as large as they are, and joins the one with the greatest gain: the predicted
- * cost (parts_cost) of both apart less that of both as one. A part of fewer than TINY primitives
- * joins whatever contains it nearly, as one leaf more or less is cheaper than one tree more.
- * Parts that do not overlap are never joined: their boxes tell them apart better than cells.
+ * cost (accel_parts_cost) of both apart less that of both as one. A part of fewer than TINY
+ * primitives joins whatever contains it nearly, as one leaf more or less is cheaper than one tree
+ * more. Parts that do not overlap are never joined: their boxes tell them apart better than cells.
  *
  * Expected linear: a part has at most 8 cells, looks at a constant number of octaves, and in each
  * cell at a few of the parts there. Boxes that grew are found anew in the next of a few rounds.
@@ -57,13 +57,14 @@ static bool sort(struct nester *n)
         if (p->part.at[i].first != i)
             continue;
         if (!array_extend(memory_of(n), &n->order, 1))
-            return build_no_memory(p->build);
+            return accel_build_no_memory(p->build);
         const accel_box unit = frame_box(&p->sizes.frame, &p->part.at[i].box);
         const uint64_t octave = octave_of(box_longest(&unit));
         n->order.at[n->order.count - 1] =
-            (struct keyed){octave << 57 | order_morton(&unit), (uint32_t)i};
+            (struct keyed){octave << 57 | accel_order_morton(&unit), (uint32_t)i};
     }
-    return order_by_key(memory_of(n), n->order.at, n->order.count) || build_no_memory(p->build);
+    return accel_order_by_key(memory_of(n), n->order.at, n->order.count) ||
+           accel_build_no_memory(p->build);
 }
 
 /* The gain of joining b with the larger a. True if it should be done. */
@@ -72,8 +73,8 @@ static bool gain_of(const struct parts *p, const struct cluster *a, const struct
 {
     accel_box both = a->box;
     box_add(&both, &b->box);
-    *gain = parts_cost(p, &a->box, a->count) + parts_cost(p, &b->box, b->count) -
-            parts_cost(p, &both, (double)a->count + b->count);
+    *gain = accel_parts_cost(p, &a->box, a->count) + accel_parts_cost(p, &b->box, b->count) -
+            accel_parts_cost(p, &both, (double)a->count + b->count);
     const accel_box unit = frame_box(&p->sizes.frame, &both),
                     larger = frame_box(&p->sizes.frame, &a->box);
     return *gain > 0.0 || (b->count < TINY && box_area(&unit) <= NEARLY * box_area(&larger));
@@ -85,7 +86,7 @@ static void look(struct nester *n, uint32_t guest, uint32_t part, struct choice 
     struct parts *p = n->parts;
     p->looks++;
     for (int i = 0; guest != ACCEL_NONE && i < LOOKED_AT; i++, guest = n->guests.at[guest].next) {
-        const uint32_t host = parts_root(p, n->guests.at[guest].part);
+        const uint32_t host = accel_parts_root(p, n->guests.at[guest].part);
         p->looks++;
         const struct cluster *a = &p->part.at[host], *b = &p->part.at[part];
         double gain;
@@ -114,9 +115,9 @@ static struct choice choose(struct nester *n, uint32_t part, const accel_box *un
 
 static bool enter_cell(struct nester *n, uint64_t key, uint32_t part)
 {
-    struct cell_slot *slot = cells_at(memory_of(n), &n->cells, key);
+    struct cell_slot *slot = accel_cells_at(memory_of(n), &n->cells, key);
     if (!slot || n->guests.count == ACCEL_NONE || !array_extend(memory_of(n), &n->guests, 1))
-        return build_no_memory(n->parts->build);
+        return accel_build_no_memory(n->parts->build);
     n->guests.at[n->guests.count - 1] = (struct guest){part, slot->value};
     slot->value = (uint32_t)n->guests.count - 1;
     return true;
@@ -147,7 +148,7 @@ static bool go_round(struct nester *n)
         const accel_box unit = frame_box(&p->sizes.frame, &p->part.at[part].box);
         const struct choice best = choose(n, part, &unit);
         if (best.part != ACCEL_NONE) {
-            parts_join(p, best.part, part);
+            accel_parts_join(p, best.part, part);
             n->joined = true;
         } else if (!enter(n, part, &unit)) {
             return false;
@@ -158,7 +159,7 @@ static bool go_round(struct nester *n)
     return true;
 }
 
-bool parts_join_nested(struct parts *p)
+bool accel_parts_join_nested(struct parts *p)
 {
     bool fine = true, joined = true;
     for (int round = 0; fine && joined && round < ROUNDS; round++) {
@@ -167,7 +168,7 @@ bool parts_join_nested(struct parts *p)
         joined = n.joined;
         array_free(memory_of(&n), &n.order);
         array_free(memory_of(&n), &n.guests);
-        cells_free(memory_of(&n), &n.cells);
+        accel_cells_free(memory_of(&n), &n.cells);
     }
     return fine;
 }

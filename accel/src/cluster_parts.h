@@ -31,25 +31,25 @@ struct parts {
     double now;                    /* progress to report meanwhile */
 };
 
-uint32_t parts_root(struct parts *p, uint32_t part);
+uint32_t accel_parts_root(struct parts *p, uint32_t part);
 
 /* Joins the parts of two different roots; returns the root of both. */
-uint32_t parts_join(struct parts *p, uint32_t a, uint32_t b);
+uint32_t accel_parts_join(struct parts *p, uint32_t a, uint32_t b);
 
 /* Makes a new part without primitives. False: no memory. */
-bool parts_new(struct parts *p, uint32_t size_class, uint32_t *number);
+bool accel_parts_new(struct parts *p, uint32_t size_class, uint32_t *number);
 
 /* Predicted cost of a cluster in visits of a node, times its surface: every ray that meets its box
  * goes down the levels of its octree and tests at least one primitive. */
-double parts_cost(const struct parts *p, const accel_box *box, double count);
+double accel_parts_cost(const struct parts *p, const accel_box *box, double count);
 
 /* The same for a box in units of the frame. */
-double parts_unit_cost(const struct parts *p, const accel_box *unit, double count);
+double accel_parts_unit_cost(const struct parts *p, const accel_box *unit, double count);
 
 /* Reports progress now and then in a loop over i. False if the build is cancelled. */
 static inline bool parts_tick(const struct parts *p, size_t i)
 {
-    return i % 4096 != 0 || build_tick(p->build, p->now);
+    return i % 4096 != 0 || accel_build_tick(p->build, p->now);
 }
 
 /* The padded box at a position in the list of bounded ids. */
@@ -87,24 +87,24 @@ struct look {
 };
 
 /* Looks at a sample: see cluster_look.c. */
-bool parts_look(const struct parts *p, struct look *look);
+bool accel_parts_look(const struct parts *p, struct look *look);
 
 /* Makes parts of what is together in the cells of the octave: see cluster_bins.c. What falls apart
  * into crumbs becomes loose. */
-bool parts_bin(struct parts *p, struct look *look);
+bool accel_parts_bin(struct parts *p, struct look *look);
 
 /* Makes units of all primitives: see cluster_units.c. */
-bool parts_make_units(struct parts *p);
+bool accel_parts_make_units(struct parts *p);
 
 /* Makes parts of what is near: see cluster_near.c. */
-bool parts_connect(struct parts *p, double connectivity);
+bool accel_parts_connect(struct parts *p, double connectivity);
 
 /* Joins parts of one size class that touch, and crumbs of one that are near each other, beginning
  * with half of a cell that the look found; NULL: with the size of a crumb. See cluster_crumbs.c. */
-bool parts_join_touching(struct parts *p);
-bool parts_join_crumbs(struct parts *p, const struct look *look);
+bool accel_parts_join_touching(struct parts *p);
+bool accel_parts_join_crumbs(struct parts *p, const struct look *look);
 
 /* Joins parts that lie in each other's boxes: see cluster_nested.c. */
-bool parts_join_nested(struct parts *p);
+bool accel_parts_join_nested(struct parts *p);
 
 #endif

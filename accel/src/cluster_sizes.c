@@ -9,7 +9,7 @@ static void count_octaves(const struct build *build, struct sizes *s)
             s->count[octave_of(ldexp(1.0, (int)e - 1023) * s->frame.scale)] += build->sizes[e];
 }
 
-uint32_t sizes_grid(uint32_t top, uint32_t octave)
+uint32_t accel_sizes_grid(uint32_t top, uint32_t octave)
 {
     if (octave >= top)
         return top + (octave - top) / SIZES_PER_GRID * SIZES_PER_GRID;
@@ -33,11 +33,11 @@ static void make_classes(struct sizes *s, double octaves)
         span++;
         s->class_of[o] = s->classes - 1;
         s->top_of[o] = top;
-        s->grid_of[o] = sizes_grid(top, o);
+        s->grid_of[o] = accel_sizes_grid(top, o);
     }
 }
 
-struct sizes sizes_of(const struct build *build, double octaves)
+struct sizes accel_sizes_of(const struct build *build, double octaves)
 {
     struct sizes sizes = {.frame = frame_of(&build->a->prims.bounds)}, *s = &sizes;
     count_octaves(build, s);

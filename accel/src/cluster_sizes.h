@@ -23,11 +23,11 @@ struct sizes {
 };
 
 /* The sizes of all bounded primitives. A class spans at most `octaves` of them; NAN: no limit. */
-struct sizes sizes_of(const struct build *build, double octaves);
+struct sizes accel_sizes_of(const struct build *build, double octaves);
 
 /* The grid for a size in a class: the class's first octave or a multiple of SIZES_PER_GRID below
  * it; above for what has outgrown the class. */
-uint32_t sizes_grid(uint32_t top, uint32_t octave);
+uint32_t accel_sizes_grid(uint32_t top, uint32_t octave);
 
 /* The octave of a box's size. */
 static inline uint32_t sizes_octave(const struct sizes *s, const accel_box *box)

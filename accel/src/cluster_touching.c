@@ -9,12 +9,12 @@ struct part {
     float lo[3], hi[3], gap;
 };
 
-bool touching_reserve(struct memory *m, struct touching *t, size_t boxes)
+bool accel_touching_reserve(struct memory *m, struct touching *t, size_t boxes)
 {
-    return cells_reserve(m, &t->cells, boxes) && array_reserve(m, &t->groups, boxes);
+    return accel_cells_reserve(m, &t->cells, boxes) && array_reserve(m, &t->groups, boxes);
 }
 
-uint32_t touching_root(struct touching *t, uint32_t group)
+uint32_t accel_touching_root(struct touching *t, uint32_t group)
 {
     struct group *at = t->groups.at;
     while (at[group].parent != group) {
@@ -26,8 +26,8 @@ uint32_t touching_root(struct touching *t, uint32_t group)
 
 static void unite(struct touching *t, uint32_t a, uint32_t b)
 {
-    a = touching_root(t, a);
-    b = touching_root(t, b);
+    a = accel_touching_root(t, a);
+    b = accel_touching_root(t, b);
     if (a < b)
         t->groups.at[b].parent = a;
     else
@@ -109,7 +109,7 @@ static uint32_t new_group(struct memory *m, struct touching *t)
 static bool enter_cell(struct memory *m, struct touching *t, uint64_t key, struct part *p,
                        uint32_t *group)
 {
-    struct cell_slot *slot = cells_at(m, &t->cells, key);
+    struct cell_slot *slot = accel_cells_at(m, &t->cells, key);
     if (!slot)
         return false;
     t->looks++;
@@ -130,8 +130,8 @@ static bool enter_cell(struct memory *m, struct touching *t, uint64_t key, struc
     return true;
 }
 
-uint32_t touching_enter(struct memory *m, struct touching *t, const accel_box *unit,
-                        struct touch_rule rule)
+uint32_t accel_touching_enter(struct memory *m, struct touching *t, const accel_box *unit,
+                              struct touch_rule rule)
 {
     const struct span s = span_of(unit, rule.octave, rule.reach);
     const double cells = (double)(1u << rule.octave);
@@ -164,8 +164,8 @@ static void join_list(struct touching *t, uint32_t list, const struct part *p, u
     }
 }
 
-void touching_join(struct touching *t, const accel_box *unit, struct touch_rule rule,
-                   uint32_t group)
+void accel_touching_join(struct touching *t, const accel_box *unit, struct touch_rule rule,
+                         uint32_t group)
 {
     const struct span s = span_of(unit, rule.octave, rule.reach);
     const double cells = (double)(1u << rule.octave);
@@ -184,8 +184,8 @@ void touching_join(struct touching *t, const accel_box *unit, struct touch_rule 
     }
 }
 
-void touching_free(struct memory *m, struct touching *t)
+void accel_touching_free(struct memory *m, struct touching *t)
 {
-    cells_free(m, &t->cells);
+    accel_cells_free(m, &t->cells);
     array_free(m, &t->groups);
 }

@@ -34,7 +34,7 @@ struct touching {
 };
 
 /* Makes room for about so many boxes. Zero before. */
-bool touching_reserve(struct memory *m, struct touching *t, size_t boxes);
+bool accel_touching_reserve(struct memory *m, struct touching *t, size_t boxes);
 
 /* How boxes are entered. */
 struct touch_rule {
@@ -44,16 +44,16 @@ struct touch_rule {
 };
 
 /* Enters a box and returns one of its groups, or ACCEL_NONE if there is no memory. */
-uint32_t touching_enter(struct memory *m, struct touching *t, const accel_box *unit,
-                        struct touch_rule rule);
+uint32_t accel_touching_enter(struct memory *m, struct touching *t, const accel_box *unit,
+                              struct touch_rule rule);
 
 /* Joins `group` with what the box touches in the cells of another octave. */
-void touching_join(struct touching *t, const accel_box *unit, struct touch_rule rule,
-                   uint32_t group);
+void accel_touching_join(struct touching *t, const accel_box *unit, struct touch_rule rule,
+                         uint32_t group);
 
 /* The number of a group's component: its root group. */
-uint32_t touching_root(struct touching *t, uint32_t group);
+uint32_t accel_touching_root(struct touching *t, uint32_t group);
 
-void touching_free(struct memory *m, struct touching *t);
+void accel_touching_free(struct memory *m, struct touching *t);
 
 #endif

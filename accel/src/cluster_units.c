@@ -102,27 +102,27 @@ static bool fill(struct opener *o)
         o->last = put(o, &prims->box[prims->bounded.at[i]]);
         p->piece_of.at[i] = o->last;
         if (o->last == ACCEL_NONE)
-            return build_no_memory(p->build);
+            return accel_build_no_memory(p->build);
         if (!parts_tick(p, i))
             return false;
     }
     return true;
 }
 
-bool parts_make_units(struct parts *p)
+bool accel_parts_make_units(struct parts *p)
 {
     const size_t count = p->build->a->prims.bounded.count;
     struct opener o = {.parts = p, .room = 64, .last = ACCEL_NONE};
     while (o.room < count / PER_OPEN_UNIT)
         o.room *= 2;
-    o.cells = memory_resize(memory_of(p), NULL, 0, o.room * sizeof *o.cells);
+    o.cells = accel_memory_resize(memory_of(p), NULL, 0, o.room * sizeof *o.cells);
     if (!o.cells || !array_extend(memory_of(p), &p->piece_of, count)) {
         if (o.cells)
-            memory_resize(memory_of(p), o.cells, o.room * sizeof *o.cells, 0);
-        return build_no_memory(p->build);
+            accel_memory_resize(memory_of(p), o.cells, o.room * sizeof *o.cells, 0);
+        return accel_build_no_memory(p->build);
     }
     memset(o.cells, 0xff, o.room * sizeof *o.cells);
     const bool fine = fill(&o);
-    memory_resize(memory_of(p), o.cells, o.room * sizeof *o.cells, 0);
+    accel_memory_resize(memory_of(p), o.cells, o.room * sizeof *o.cells, 0);
     return fine;
 }

@@ -31,7 +31,7 @@ static struct word take(const char **at, const char *ends)
 static int shown(struct word w)
 {
     enum { MOST = 40 };
-    return (int)error_cut(w.at, w.size, MOST);
+    return (int)accel_error_cut(w.at, w.size, MOST);
 }
 
 static char lower(char c)
@@ -83,21 +83,22 @@ static void choice_add(struct choice *c, const char *text)
 static void complain(accel_error *error, const char *what, const struct choice *c)
 {
     if (c->nearest)
-        error_set(error, ACCEL_BAD_CONFIG,
-                  "config: %s '%.*s', allowed are %s; did you mean '%s'? Nothing was built", what,
-                  shown(c->wrong), c->wrong.at, c->list, c->nearest);
+        accel_error_set(error, ACCEL_BAD_CONFIG,
+                        "config: %s '%.*s', allowed are %s; did you mean '%s'? Nothing was built",
+                        what, shown(c->wrong), c->wrong.at, c->list, c->nearest);
     else
-        error_set(error, ACCEL_BAD_CONFIG, "config: %s '%.*s', %s%s; nothing was built", what,
-                  shown(c->wrong), c->wrong.at, *c->list ? "allowed are " : "but none is allowed", c->list);
+        accel_error_set(error, ACCEL_BAD_CONFIG, "config: %s '%.*s', %s%s; nothing was built", what,
+                        shown(c->wrong), c->wrong.at,
+                        *c->list ? "allowed are " : "but none is allowed", c->list);
 }
 
 static const struct accel_kind *find_kind(struct word name, accel_error *error)
 {
     struct choice c = {.wrong = name};
-    for (size_t i = 0; kinds[i]; i++) {
-        if (same(name, kinds[i]->name))
-            return (const struct accel_kind *)kinds[i];
-        choice_add(&c, kinds[i]->name);
+    for (size_t i = 0; accel_kind_list[i]; i++) {
+        if (same(name, accel_kind_list[i]->name))
+            return (const struct accel_kind *)accel_kind_list[i];
+        choice_add(&c, accel_kind_list[i]->name);
     }
     complain(error, "unknown kind", &c);
     return NULL;
@@ -135,14 +136,14 @@ static bool parse_word(const accel_option *o, struct word value, double *out, ac
 
 static bool parse_number(const accel_option *o, struct word value, double *out, accel_error *error)
 {
-    if (number_parse(value.at, value.size, out) && *out >= o->min && *out <= o->max &&
+    if (accel_number_parse(value.at, value.size, out) && *out >= o->min && *out <= o->max &&
         (!o->whole || *out == floor(*out)))
         return true;
-    error_set(error, ACCEL_BAD_CONFIG,
-              "config: %s is '%.*s', allowed is %s from %s to %s%s; nothing was built", o->key,
-              shown(value), value.at, o->whole ? "a whole number" : "a number",
-              number_text(o->min, 6).at, number_text(o->max, 6).at,
-              isnan(o->standard) ? " or auto" : "");
+    accel_error_set(error, ACCEL_BAD_CONFIG,
+                    "config: %s is '%.*s', allowed is %s from %s to %s%s; nothing was built",
+                    o->key, shown(value), value.at, o->whole ? "a whole number" : "a number",
+                    accel_number_text(o->min, 6).at, accel_number_text(o->max, 6).at,
+                    isnan(o->standard) ? " or auto" : "");
     return false;
 }
 
@@ -164,24 +165,24 @@ static bool parse_setting(const struct accel_kind *kind, const char **at, double
     if (i < 0)
         return false;
     if (given[i]) {
-        error_set(error, ACCEL_BAD_CONFIG,
-                  "config: %s is given twice, once is allowed; nothing was built",
-                  kind->info.options[i].key);
+        accel_error_set(error, ACCEL_BAD_CONFIG,
+                        "config: %s is given twice, once is allowed; nothing was built",
+                        kind->info.options[i].key);
         return false;
     }
     given[i] = true;
     if (**at != '=') {
-        error_set(error, ACCEL_BAD_CONFIG,
-                  "config: %s has no value, '%s=...' is allowed; nothing was built",
-                  kind->info.options[i].key, kind->info.options[i].key);
+        accel_error_set(error, ACCEL_BAD_CONFIG,
+                        "config: %s has no value, '%s=...' is allowed; nothing was built",
+                        kind->info.options[i].key, kind->info.options[i].key);
         return false;
     }
     ++*at;
     return parse_value(&kind->info.options[i], take(at, ","), &option[i], error);
 }
 
-const struct accel_kind *config_parse(const char *config, double option[MAX_OPTIONS],
-                                      accel_error *error)
+const struct accel_kind *accel_config_parse(const char *config, double option[MAX_OPTIONS],
+                                            accel_error *error)
 {
     const char *at = config && *config ? config : ACCEL_DEFAULT_CONFIG;
     const struct accel_kind *kind = find_kind(take(&at, ":"), error);
@@ -198,8 +199,8 @@ const struct accel_kind *config_parse(const char *config, double option[MAX_OPTI
     return kind;
 }
 
-void config_print(const struct accel_kind *kind, const double option[MAX_OPTIONS], char *text,
-                  size_t size)
+void accel_config_print(const struct accel_kind *kind, const double option[MAX_OPTIONS], char *text,
+                        size_t size)
 {
     int used = snprintf(text, size, "%s", kind->info.name);
     for (size_t i = 0; i < kind->info.option_count && (size_t)used < size; i++) {
@@ -210,7 +211,7 @@ void config_print(const struct accel_kind *kind, const double option[MAX_OPTIONS
         else if (o->words)
             snprintf(value, sizeof value, "%s", o->words[(int)option[i]]);
         else
-            snprintf(value, sizeof value, "%s", number_text_exact(option[i]).at);
+            snprintf(value, sizeof value, "%s", accel_number_text_exact(option[i]).at);
         used += snprintf(text + used, size - (size_t)used, "%c%s=%s", i == 0 ? ':' : ',', o->key,
                          value);
     }

@@ -51,7 +51,7 @@ static void make_printable(char *text)
     *to = '\0';
 }
 
-size_t error_cut(const char *word, size_t size, size_t most)
+size_t accel_error_cut(const char *word, size_t size, size_t most)
 {
     if (size <= most)
         return size;
@@ -61,7 +61,7 @@ size_t error_cut(const char *word, size_t size, size_t most)
     return end;
 }
 
-accel_status error_set(accel_error *error, accel_status status, const char *format, ...)
+accel_status accel_error_set(accel_error *error, accel_status status, const char *format, ...)
 {
     if (error->status != ACCEL_OK)
         return error->status;

@@ -10,9 +10,9 @@
 
 /* Notes status and text unless `error` already holds one. Returns the status that it holds. */
 __attribute__((format(printf, 3, 4))) accel_status
-error_set(accel_error *error, accel_status status, const char *format, ...);
+accel_error_set(accel_error *error, accel_status status, const char *format, ...);
 
 /* Bytes of a word of which at most so many are to be shown: no character is cut in two. */
-size_t error_cut(const char *word, size_t size, size_t most);
+size_t accel_error_cut(const char *word, size_t size, size_t most);
 
 #endif

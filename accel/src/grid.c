@@ -33,15 +33,15 @@ static void describe(struct build *build, const struct grid_kind *k, const struc
     info->leaves = k->pool.starts.count - 1;
     info->references = k->pool.refs.count;
     info->depth = 1;
-    build_note(build, "%u x %u x %u cells, for density=%s%s", g->cells[0], g->cells[1], g->cells[2],
-               number_text(plan->density, 6).at,
-               isnan(k->base.option[DENSITY]) ? ", which auto found cheapest" : "");
-    grid_note_empty(build, &k->pool);
+    accel_build_note(build, "%u x %u x %u cells, for density=%s%s", g->cells[0], g->cells[1],
+                     g->cells[2], accel_number_text(plan->density, 6).at,
+                     isnan(k->base.option[DENSITY]) ? ", which auto found cheapest" : "");
+    accel_grid_note_empty(build, &k->pool);
     if (plan->coarser)
-        build_note(
+        accel_build_note(
             build,
             "coarser than density=%s asks: for memory in proportion, or as cells list most items",
-            number_text(plan->density, 6).at);
+            accel_number_text(plan->density, 6).at);
 }
 
 static bool build(struct build *build)
@@ -49,16 +49,16 @@ static bool build(struct build *build)
     struct grid_kind *k = (struct grid_kind *)build->a;
     const struct primitives *p = &k->base.prims;
     const struct grid_items all = {p->bounded.at, p->bounded.count};
-    build_phase(build, "density");
+    accel_build_phase(build, "density");
     if (!array_extend(&k->base.memory, &k->pool.grids, 1))
-        return build_no_memory(build);
+        return accel_build_no_memory(build);
     k->pool.grids.at[0] = (struct grid){.box = p->bounds};
     struct grid_plan plan =
-        grid_plan(p, &k->pool, &k->pool.grids.at[0].box, all, k->base.option[DENSITY]);
-    build_phase(build, "grid");
-    if (!grid_build(build, &k->pool, 0, all, &plan, 0.0, 1.0))
+        accel_grid_plan(p, &k->pool, &k->pool.grids.at[0].box, all, k->base.option[DENSITY]);
+    accel_build_phase(build, "grid");
+    if (!accel_grid_build(build, &k->pool, 0, all, &plan, 0.0, 1.0))
         return false;
-    grid_pool_trim(&k->base.memory, &k->pool);
+    accel_grid_pool_trim(&k->base.memory, &k->pool);
     describe(build, k, &plan);
     return true;
 }
@@ -66,7 +66,7 @@ static bool build(struct build *build)
 static bool visit(const accel *a, struct query *q, const uint32_t *refs, size_t count)
 {
     (void)a;
-    query_test_list(q, refs, count);
+    accel_query_test_list(q, refs, count);
     return !query_done(q);
 }
 
@@ -79,17 +79,17 @@ static void walk(const accel *a, struct query *q)
 static bool validate(const accel *a, accel_error *error)
 {
     const struct grid_kind *k = (const struct grid_kind *)a;
-    return grid_validate(a, &k->pool, 0,
-                         (struct grid_items){a->prims.bounded.at, a->prims.bounded.count}, error);
+    return accel_grid_validate(
+        a, &k->pool, 0, (struct grid_items){a->prims.bounded.at, a->prims.bounded.count}, error);
 }
 
 static void release(accel *a)
 {
     struct grid_kind *k = (struct grid_kind *)a;
-    grid_pool_free(&a->memory, &k->pool);
+    accel_grid_pool_free(&a->memory, &k->pool);
 }
 
-const struct accel_kind grid_kind = {
+const struct accel_kind accel_grid_kind = {
     .info = {.name = "grid",
              .summary = "one uniform grid over the scene",
              .options = options,

@@ -68,48 +68,48 @@ struct grid_plan {
 
 /* Chooses the cells of a grid over the items, not empty: `density` cells per item, as cubic as
  * possible (Woo), or, if that is NAN, where the predicted cost is lowest. */
-struct grid_plan grid_plan(const struct primitives *p, const struct grid_pool *pool,
-                           const accel_box *box, struct grid_items items, double density);
+struct grid_plan accel_grid_plan(const struct primitives *p, const struct grid_pool *pool,
+                                 const accel_box *box, struct grid_items items, double density);
 
 /* A plan of so many cells along each axis, but for one axis without extent. */
-struct grid_plan grid_plan_given(const accel_box *box, uint32_t cells);
+struct grid_plan accel_grid_plan_given(const accel_box *box, uint32_t cells);
 
 /* Are the bricks of a plan for a grid over `count` items within bounds? */
-bool grid_plan_fits(const struct grid_plan *plan, size_t count);
+bool accel_grid_plan_fits(const struct grid_plan *plan, size_t count);
 
 /* References that a grid over `count` items may have. */
-double grid_plan_references(const struct grid_plan *plan, size_t count);
+double accel_grid_plan_references(const struct grid_plan *plan, size_t count);
 
 /* Predicted cost of testing all items one by one, in visits of a node. */
-double grid_list_cost(const struct primitives *p, struct grid_items items);
+double accel_grid_list_cost(const struct primitives *p, struct grid_items items);
 
 /* Halves the number of cells. */
-void grid_coarsen(struct grid_plan *plan);
+void accel_grid_coarsen(struct grid_plan *plan);
 
 /* Makes it one cell. */
-void grid_give_up(struct grid_plan *plan);
+void accel_grid_give_up(struct grid_plan *plan);
 
 /* Makes the parts of grid `number` of the pool, whose box is filled in, over the items, not empty;
  * coarser than the plan where its bricks or references would not be in proportion to the items;
  * of one cell where most cells would list most items.
  * The progress of the phase runs from `from` to `to`. */
-bool grid_build(struct build *build, struct grid_pool *pool, size_t number, struct grid_items items,
-                struct grid_plan *plan, double from, double to);
+bool accel_grid_build(struct build *build, struct grid_pool *pool, size_t number,
+                      struct grid_items items, struct grid_plan *plan, double from, double to);
 
 /* Are the planes of grid `number` in order, and are its cells and their references in the pool? */
-bool grid_validate_frame(const accel *a, const struct grid_pool *pool, size_t number,
-                         accel_error *error);
+bool accel_grid_validate_frame(const accel *a, const struct grid_pool *pool, size_t number,
+                               accel_error *error);
 
 /* Checks the invariant for grid `number` over the items, which rise, and for the grids that stand
  * for its cells. */
-bool grid_validate(const accel *a, const struct grid_pool *pool, size_t number,
-                   struct grid_items items, accel_error *error);
+bool accel_grid_validate(const accel *a, const struct grid_pool *pool, size_t number,
+                         struct grid_items items, accel_error *error);
 
 /* Bytes of all parts. */
-size_t grid_pool_bytes(const struct grid_pool *pool);
+size_t accel_grid_pool_bytes(const struct grid_pool *pool);
 
 /* Notes what the empty cells of all grids would take beside what finds the others. */
-void grid_note_empty(struct build *build, const struct grid_pool *pool);
+void accel_grid_note_empty(struct build *build, const struct grid_pool *pool);
 
 /* Bytes of a grid's parts apart from its references, if it has one cell. */
 enum {
@@ -117,8 +117,8 @@ enum {
                        sizeof(uint64_t) + 2 * sizeof(uint32_t)
 };
 
-void grid_pool_trim(struct memory *m, struct grid_pool *pool);
-void grid_pool_free(struct memory *m, struct grid_pool *pool);
+void accel_grid_pool_trim(struct memory *m, struct grid_pool *pool);
+void accel_grid_pool_free(struct memory *m, struct grid_pool *pool);
 
 /* The box of what a reference names. */
 static inline const accel_box *grid_item_box(const struct primitives *p,

@@ -24,10 +24,11 @@ typedef void cell_action(struct maker *m, size_t brick, uint32_t bit, uint32_t r
 
 static bool too_many(struct build *build)
 {
-    error_set(build->error, ACCEL_TOO_LARGE,
-              "build %s: more than 4294967295 references; nothing was built, a lower density makes "
-              "fewer",
-              build->a->kind->info.name);
+    accel_error_set(
+        build->error, ACCEL_TOO_LARGE,
+        "build %s: more than 4294967295 references; nothing was built, a lower density makes "
+        "fewer",
+        build->a->kind->info.name);
     return false;
 }
 
@@ -53,7 +54,7 @@ static bool make_axis(struct build *build, struct grid_pool *pool, struct grid *
     g->plane[k] = pool->planes.count;
     g->bricks[k] = (cells + GRID_BRICK - 1) / GRID_BRICK;
     if (!array_extend(&build->a->memory, &pool->planes, GRID_BRICK * (size_t)g->bricks[k] + 1))
-        return build_no_memory(build);
+        return accel_build_no_memory(build);
     while (
         !lay_planes(pool->planes.at + g->plane[k], g->box.lo[k], g->box.hi[k], cells, g->bricks[k]))
         cells /= 2;
@@ -70,7 +71,7 @@ static bool make_bricks(struct build *build, struct grid_pool *pool, struct grid
     g->brick = pool->masks.count;
     if (!array_extend(&build->a->memory, &pool->masks, bricks) ||
         !array_extend(&build->a->memory, &pool->firsts, bricks))
-        return build_no_memory(build);
+        return accel_build_no_memory(build);
     memset(pool->masks.at + g->brick, 0, bricks * sizeof *pool->masks.at);
     return true;
 }
@@ -166,7 +167,7 @@ static bool number_cells(struct maker *m)
     if (pool->refs.count + m->total > ACCEL_NONE)
         return too_many(m->build);
     if (!array_extend(&m->build->a->memory, &pool->starts, last + cells + 1 - pool->starts.count))
-        return build_no_memory(m->build);
+        return accel_build_no_memory(m->build);
     memset(pool->starts.at + last, 0, (cells + 1) * sizeof *pool->starts.at);
     return true;
 }
@@ -180,7 +181,8 @@ static bool place_runs(struct maker *m)
         end += pool->starts.at[i];
         pool->starts.at[i] = (uint32_t)end;
     }
-    return array_extend(&m->build->a->memory, &pool->refs, m->total) || build_no_memory(m->build);
+    return array_extend(&m->build->a->memory, &pool->refs, m->total) ||
+           accel_build_no_memory(m->build);
 }
 
 static bool make_frame(struct maker *m, struct grid *g, const uint32_t cells[3])
@@ -217,11 +219,11 @@ static bool is_pile(const struct maker *m, const struct grid_plan *plan)
 /* Frames the grid and marks its cells, coarser until the references are within bounds. */
 static bool mark_cells(struct maker *m, struct grid *g, struct grid_plan *plan)
 {
-    const double budget = grid_plan_references(plan, m->items.count);
+    const double budget = accel_grid_plan_references(plan, m->items.count);
     const size_t planes = m->pool->planes.count, bricks = m->pool->masks.count;
     for (;;) {
-        while (!grid_plan_fits(plan, m->items.count))
-            grid_coarsen(plan);
+        while (!accel_grid_plan_fits(plan, m->items.count))
+            accel_grid_coarsen(plan);
         if (!make_frame(m, g, plan->cells) || !mark_until(m, budget))
             return false;
         const bool over = (double)m->total > budget;
@@ -231,14 +233,14 @@ static bool mark_cells(struct maker *m, struct grid *g, struct grid_plan *plan)
         m->pool->masks.count = m->pool->firsts.count = bricks;
         m->done = 0.0;
         if (over)
-            grid_coarsen(plan);
+            accel_grid_coarsen(plan);
         else
-            grid_give_up(plan);
+            accel_grid_give_up(plan);
     }
 }
 
-bool grid_build(struct build *build, struct grid_pool *pool, size_t number, struct grid_items items,
-                struct grid_plan *plan, double from, double to)
+bool accel_grid_build(struct build *build, struct grid_pool *pool, size_t number,
+                      struct grid_items items, struct grid_plan *plan, double from, double to)
 {
     struct grid *g = &pool->grids.at[number];
     struct maker m = {
@@ -247,14 +249,14 @@ bool grid_build(struct build *build, struct grid_pool *pool, size_t number, stru
            place_runs(&m) && pass(&m, fill_in);
 }
 
-size_t grid_pool_bytes(const struct grid_pool *p)
+size_t accel_grid_pool_bytes(const struct grid_pool *p)
 {
     return p->grids.count * sizeof *p->grids.at + p->planes.count * sizeof *p->planes.at +
            p->masks.count * (sizeof *p->masks.at + sizeof *p->firsts.at) +
            (p->starts.count + p->refs.count) * sizeof(uint32_t);
 }
 
-void grid_note_empty(struct build *build, const struct grid_pool *pool)
+void accel_grid_note_empty(struct build *build, const struct grid_pool *pool)
 {
     size_t cells = 0;
     for (size_t i = 0; i < pool->grids.count; i++) {
@@ -265,12 +267,12 @@ void grid_note_empty(struct build *build, const struct grid_pool *pool)
     const size_t places = empty * sizeof *pool->starts.at;
     const size_t masks = pool->masks.count * (sizeof *pool->masks.at + sizeof *pool->firsts.at);
     if (places > masks)
-        build_left_out(build, places - masks, grid_pool_bytes(pool),
-                       "%zu of %zu cells are empty: not stored (%zu bytes of bit masks)", empty,
-                       cells, masks);
+        accel_build_left_out(build, places - masks, accel_grid_pool_bytes(pool),
+                             "%zu of %zu cells are empty: not stored (%zu bytes of bit masks)",
+                             empty, cells, masks);
 }
 
-void grid_pool_trim(struct memory *m, struct grid_pool *pool)
+void accel_grid_pool_trim(struct memory *m, struct grid_pool *pool)
 {
     array_trim(m, &pool->grids);
     array_trim(m, &pool->planes);
@@ -280,7 +282,7 @@ void grid_pool_trim(struct memory *m, struct grid_pool *pool)
     array_trim(m, &pool->refs);
 }
 
-void grid_pool_free(struct memory *m, struct grid_pool *pool)
+void accel_grid_pool_free(struct memory *m, struct grid_pool *pool)
 {
     array_free(m, &pool->grids);
     array_free(m, &pool->planes);

@@ -29,12 +29,12 @@ enum { MAX_CELLS = 8192 };
 #define GIVEN_ROOM 16.0
 
 /* Bricks take 12 bytes, references 4. The constants let a few large items have some cells. */
-double grid_plan_references(const struct grid_plan *plan, size_t count)
+double accel_grid_plan_references(const struct grid_plan *plan, size_t count)
 {
     return plan->room * (10.0 * (double)count + 256.0);
 }
 
-bool grid_plan_fits(const struct grid_plan *plan, size_t count)
+bool accel_grid_plan_fits(const struct grid_plan *plan, size_t count)
 {
     double bricks = 1.0;
     for (int k = 0; k < 3; k++)
@@ -163,10 +163,10 @@ static struct grid_plan plan_density(const struct planner *s, double density, do
     const size_t count = s->items.count;
     struct grid_plan plan = {.density = density, .cost = (double)INFINITY, .room = room};
     divide(s->side, fmax(1.0, density * (double)count), plan.cells);
-    if (!grid_plan_fits(&plan, count))
+    if (!accel_grid_plan_fits(&plan, count))
         return plan;
     const struct outcome o = look(s, plan.cells, stride);
-    if (o.references <= grid_plan_references(&plan, count))
+    if (o.references <= accel_grid_plan_references(&plan, count))
         plan.cost = predicted_cost(s, plan.cells, o);
     plan.tests = o.tests;
     return plan;
@@ -193,7 +193,7 @@ static struct grid_plan cheapest(const struct planner *s, size_t stride)
     return try_densities(s, best.density * 4.0, best.density / 4.0, 2.0, best, stride);
 }
 
-double grid_list_cost(const struct primitives *p, struct grid_items items)
+double accel_grid_list_cost(const struct primitives *p, struct grid_items items)
 {
     double sum = 0.0;
     for (size_t i = 0; i < items.count; i++)
@@ -201,7 +201,7 @@ double grid_list_cost(const struct primitives *p, struct grid_items items)
     return sum;
 }
 
-struct grid_plan grid_plan_given(const accel_box *box, uint32_t cells)
+struct grid_plan accel_grid_plan_given(const accel_box *box, uint32_t cells)
 {
     struct planner s = {.box = box};
     struct grid_plan plan = {.room = GIVEN_ROOM};
@@ -211,7 +211,7 @@ struct grid_plan grid_plan_given(const accel_box *box, uint32_t cells)
     return plan;
 }
 
-void grid_coarsen(struct grid_plan *plan)
+void accel_grid_coarsen(struct grid_plan *plan)
 {
     const double share = 0.79; /* of an axis: half the cells */
     for (int k = 0; k < 3; k++) {
@@ -221,14 +221,14 @@ void grid_coarsen(struct grid_plan *plan)
     plan->coarser = true;
 }
 
-void grid_give_up(struct grid_plan *plan)
+void accel_grid_give_up(struct grid_plan *plan)
 {
     plan->cells[0] = plan->cells[1] = plan->cells[2] = 1;
     plan->coarser = true;
 }
 
-struct grid_plan grid_plan(const struct primitives *p, const struct grid_pool *pool,
-                           const accel_box *box, struct grid_items items, double density)
+struct grid_plan accel_grid_plan(const struct primitives *p, const struct grid_pool *pool,
+                                 const accel_box *box, struct grid_items items, double density)
 {
     struct planner s = {.p = p, .pool = pool, .box = box, .items = items};
     measure_box(&s);

@@ -23,7 +23,7 @@ struct checker {
 
 static bool broken(const struct checker *c, const char *what, size_t number)
 {
-    error_set(c->error, ACCEL_BROKEN, "%s: %s %zu", c->a->kind->info.name, what, number);
+    accel_error_set(c->error, ACCEL_BROKEN, "%s: %s %zu", c->a->kind->info.name, what, number);
     return false;
 }
 
@@ -142,7 +142,7 @@ static bool send_all(struct checker *c)
 {
     c->start = calloc(c->cells + 2, sizeof *c->start);
     if (!c->start) {
-        error_set(c->error, ACCEL_NO_MEMORY, "validate: no memory for %zu cells", c->cells);
+        accel_error_set(c->error, ACCEL_NO_MEMORY, "validate: no memory for %zu cells", c->cells);
         return false;
     }
     for (size_t i = 0; i < c->items.count; i++)
@@ -153,7 +153,7 @@ static bool send_all(struct checker *c)
     const size_t total = c->start[c->cells];
     c->list = malloc((total ? total : 1) * sizeof *c->list);
     if (!c->list) {
-        error_set(c->error, ACCEL_NO_MEMORY, "validate: no memory for %zu references", total);
+        accel_error_set(c->error, ACCEL_NO_MEMORY, "validate: no memory for %zu references", total);
         return false;
     }
     for (size_t i = 0; i < c->items.count; i++)
@@ -177,7 +177,7 @@ static bool check_cell(const struct checker *c, size_t cell)
     const struct grid *inner = at[0] < ids ? NULL : &c->pool->grids.at[at[0] - ids];
     if (inner && inner->cell)
         return count == 1 && inner->depth > c->grid->depth
-                   ? grid_validate(c->a, c->pool, at[0] - ids, want, c->error)
+                   ? accel_grid_validate(c->a, c->pool, at[0] - ids, want, c->error)
                    : broken(c, "not alone in its cell, or not below the one around, grid",
                             at[0] - ids);
     if (count != want.count || memcmp(at, want.at, count * sizeof *at) != 0)
@@ -185,8 +185,8 @@ static bool check_cell(const struct checker *c, size_t cell)
     return true;
 }
 
-bool grid_validate_frame(const accel *a, const struct grid_pool *pool, size_t number,
-                         accel_error *error)
+bool accel_grid_validate_frame(const accel *a, const struct grid_pool *pool, size_t number,
+                               accel_error *error)
 {
     struct checker c = {.a = a, .pool = pool, .grid = &pool->grids.at[number], .error = error};
     if (c.grid->depth >= a->info.depth || c.grid->cell > 1)
@@ -194,12 +194,13 @@ bool grid_validate_frame(const accel *a, const struct grid_pool *pool, size_t nu
     return check_planes(&c, 0) && check_planes(&c, 1) && check_planes(&c, 2) && check_bricks(&c);
 }
 
-bool grid_validate(const accel *a, const struct grid_pool *pool, size_t number,
-                   struct grid_items items, accel_error *error)
+bool accel_grid_validate(const accel *a, const struct grid_pool *pool, size_t number,
+                         struct grid_items items, accel_error *error)
 {
     struct checker c = {
         .a = a, .pool = pool, .grid = &pool->grids.at[number], .items = items, .error = error};
-    bool fine = grid_validate_frame(a, pool, number, error) && check_bricks(&c) && send_all(&c);
+    bool fine =
+        accel_grid_validate_frame(a, pool, number, error) && check_bricks(&c) && send_all(&c);
     for (size_t i = 0; fine && i < c.cells; i++)
         fine = check_cell(&c, i);
     free(c.start);

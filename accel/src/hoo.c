@@ -62,8 +62,8 @@ static const accel_option options[] = {
 static bool find_clusters(struct build *build, struct hoo_kind *h)
 {
     const struct cluster_rule rule = {h->base.option[CONNECTIVITY], h->base.option[OCTAVES]};
-    build_phase(build, "clusters");
-    return cluster_scene(build, &h->clustering, rule, 0.0, 1.0);
+    accel_build_phase(build, "clusters");
+    return accel_cluster_scene(build, &h->clustering, rule, 0.0, 1.0);
 }
 
 static struct octree_rule octree_rule(const struct hoo_kind *h)
@@ -76,11 +76,11 @@ static bool leave_octrees(struct build *build, struct hoo_kind *h)
 {
     const struct clustering *c = &h->clustering;
     if (!array_extend(&h->base.memory, &h->later, c->clusters.count))
-        return build_no_memory(build);
+        return accel_build_no_memory(build);
     for (size_t i = 0; i < c->clusters.count; i++) {
         const struct cluster *cluster = &c->clusters.at[i];
-        h->later.at[i] = octree_for_later(c->order.at + cluster->first, cluster->count,
-                                          &cluster->box, octree_rule(h));
+        h->later.at[i] = accel_octree_for_later(c->order.at + cluster->first, cluster->count,
+                                                &cluster->box, octree_rule(h));
     }
     h->lazy = (struct octree_lazy){
         .a = &h->base, .rule = octree_rule(h), .whole = (uint32_t)h->base.option[PART]};
@@ -91,22 +91,22 @@ static bool build_octrees(struct build *build, struct hoo_kind *h)
 {
     const struct clustering *c = &h->clustering;
     const struct octree_rule rule = octree_rule(h);
-    build_phase(build, "octrees");
+    accel_build_phase(build, "octrees");
     if (h->base.option[LAZY] > 0)
         return leave_octrees(build, h);
     if (!array_extend(&h->base.memory, &h->trees, c->clusters.count))
-        return build_no_memory(build);
+        return accel_build_no_memory(build);
     for (size_t i = 0; i < c->clusters.count; i++) {
         const struct cluster *cluster = &c->clusters.at[i];
         const double from = cluster->first / (double)c->order.count;
         const double to = (cluster->first + (double)cluster->count) / (double)c->order.count;
-        if (!octree_build(build, &h->pool, &h->trees.at[i], c->order.at + cluster->first,
-                          cluster->count, &cluster->box, rule, from, to))
+        if (!accel_octree_build(build, &h->pool, &h->trees.at[i], c->order.at + cluster->first,
+                                cluster->count, &cluster->box, rule, from, to))
             return false;
     }
-    octree_pool_trim(&h->base.memory, &h->pool);
-    octree_note_empty(build, &h->pool);
-    octree_note_lists(build, &h->pool, h->trees.at, h->trees.count);
+    accel_octree_pool_trim(&h->base.memory, &h->pool);
+    accel_octree_note_empty(build, &h->pool);
+    accel_octree_note_lists(build, &h->pool, h->trees.at, h->trees.count);
     return true;
 }
 
@@ -120,12 +120,12 @@ static bool build_top(struct build *build, struct hoo_kind *h)
 {
     const size_t count = h->clustering.clusters.count;
     if (count == 1) {
-        build_left_out(build, sizeof(struct boxtree_node), octree_pool_bytes(&h->pool),
-                       "one cluster: no tree above its octree");
+        accel_build_left_out(build, sizeof(struct boxtree_node), accel_octree_pool_bytes(&h->pool),
+                             "one cluster: no tree above its octree");
         return true;
     }
-    build_phase(build, "tree");
-    return pair_boxes(build, &h->top, count, cluster_box, &h->clustering);
+    accel_build_phase(build, "tree");
+    return accel_pair_boxes(build, &h->top, count, cluster_box, &h->clustering);
 }
 
 static void describe(struct build *build, const struct hoo_kind *h)
@@ -148,9 +148,9 @@ static bool build_classic(struct build *build, struct hoo_kind *h)
 /* The clusters are the tree's shape, and not needed after it. */
 static bool build_wide(struct build *build, struct hoo_kind *h)
 {
-    const bool fine = wide_form_build(build, &h->wide, &h->base.option[ISA], WIDE_BY_OCTANTS,
-                                      &h->clustering);
-    cluster_free(&h->base.memory, &h->clustering);
+    const bool fine = accel_wide_form_build(build, &h->wide, &h->base.option[ISA], WIDE_BY_OCTANTS,
+                                            &h->clustering);
+    accel_cluster_free(&h->base.memory, &h->clustering);
     return fine;
 }
 
@@ -162,33 +162,33 @@ static bool build(struct build *build)
     option[FORM] = wide_form_resolve(option[FORM], classic);
     if (option[FORM] == WIDE_FORM_WIDE)
         option[LAZY] = 0;
-    return find_clusters(build, h) && (option[FORM] == WIDE_FORM_CLASSIC ? build_classic(build, h)
-                                                                         : build_wide(build, h));
+    return find_clusters(build, h) &&
+           (option[FORM] == WIDE_FORM_CLASSIC ? build_classic(build, h) : build_wide(build, h));
 }
 
 static void visit(const accel *a, struct query *q, struct boxtree_child leaf)
 {
     const struct hoo_kind *h = (const struct hoo_kind *)a;
-    octree_walk(&h->pool, &h->trees.at[leaf.first], q);
+    accel_octree_walk(&h->pool, &h->trees.at[leaf.first], q);
 }
 
 static void visit_lazy(const accel *a, struct query *q, struct boxtree_child leaf)
 {
     const struct hoo_kind *h = (const struct hoo_kind *)a;
-    octree_walk_lazy(&h->lazy, &h->later.at[leaf.first], q);
+    accel_octree_walk_lazy(&h->lazy, &h->later.at[leaf.first], q);
 }
 
 static void walk(const accel *a, struct query *q)
 {
     const struct hoo_kind *h = (const struct hoo_kind *)a;
     if (h->wide.base)
-        wide_form_walk(&h->wide, q);
+        accel_wide_form_walk(&h->wide, q);
     else if (h->later.count == 1)
-        octree_walk_lazy(&h->lazy, &h->later.at[0], q);
+        accel_octree_walk_lazy(&h->lazy, &h->later.at[0], q);
     else if (h->later.count > 1)
         boxtree_walk(a, h->top.nodes.at, q, visit_lazy);
     else if (h->trees.count == 1)
-        octree_walk(&h->pool, &h->trees.at[0], q);
+        accel_octree_walk(&h->pool, &h->trees.at[0], q);
     else
         boxtree_walk(a, h->top.nodes.at, q, visit);
 }
@@ -199,7 +199,7 @@ static void describe_lazy(const accel *a, accel_info *info)
     const struct hoo_kind *h = (const struct hoo_kind *)a;
     struct octree_census census = {.nodes = 0};
     for (size_t i = 0; i < h->later.count; i++)
-        info->unbuilt_clusters += !octree_count(&h->later.at[i], &census);
+        info->unbuilt_clusters += !accel_octree_count(&h->later.at[i], &census);
     info->unbuilt_primitives = census.unbuilt;
     info->lazy_bytes = census.bytes;
     info->nodes += census.nodes;
@@ -208,18 +208,18 @@ static void describe_lazy(const accel *a, accel_info *info)
     info->depth += census.depth;
     info->bytes += census.bytes;
     if (census.refused)
-        octree_note_refused(info);
+        accel_octree_note_refused(info);
     if (h->later.count > 0)
-        info_note(info, "lazy: %u of %zu clusters and %llu of %zu primitives are not built",
-                  info->unbuilt_clusters, h->later.count, (unsigned long long)census.unbuilt,
-                  h->clustering.order.count);
+        accel_info_note(info, "lazy: %u of %zu clusters and %llu of %zu primitives are not built",
+                        info->unbuilt_clusters, h->later.count, (unsigned long long)census.unbuilt,
+                        h->clustering.order.count);
 }
 
 /* ---------------------------------------------------------------------- validate ---- */
 
 static bool broken(accel_error *error, const char *what, size_t number)
 {
-    error_set(error, ACCEL_BROKEN, "hoo: %s %zu", what, number);
+    accel_error_set(error, ACCEL_BROKEN, "hoo: %s %zu", what, number);
     return false;
 }
 
@@ -240,8 +240,9 @@ static bool check_cluster(const struct hoo_kind *h, size_t i, bool *seen, accel_
         seen[ids[j]] = true;
     }
     return h->later.count > 0
-               ? octree_validate_lazy(&h->lazy, &h->later.at[i], ids, cluster->count, error)
-               : octree_validate(&h->base, &h->pool, &h->trees.at[i], ids, cluster->count, error);
+               ? accel_octree_validate_lazy(&h->lazy, &h->later.at[i], ids, cluster->count, error)
+               : accel_octree_validate(&h->base, &h->pool, &h->trees.at[i], ids, cluster->count,
+                                       error);
 }
 
 /* Every bounded id is in exactly one cluster, and every octree is right. */
@@ -251,7 +252,8 @@ static bool check_clusters(const struct hoo_kind *h, accel_error *error)
     bool *seen = calloc(h->base.prims.count, sizeof *seen);
     bool fine = true;
     if (!seen) {
-        error_set(error, ACCEL_NO_MEMORY, "validate: no memory for %u marks", h->base.prims.count);
+        accel_error_set(error, ACCEL_NO_MEMORY, "validate: no memory for %u marks",
+                        h->base.prims.count);
         return false;
     }
     for (size_t i = 0; fine && i < h->clustering.clusters.count; i++)
@@ -298,7 +300,7 @@ static bool check_top(const struct hoo_kind *h, accel_error *error)
         return h->top.nodes.count == 0 || broken(error, "nodes over one cluster:", 1);
     bool *seen = calloc(clusters, sizeof *seen);
     if (!seen) {
-        error_set(error, ACCEL_NO_MEMORY, "validate: no memory for %zu marks", clusters);
+        accel_error_set(error, ACCEL_NO_MEMORY, "validate: no memory for %zu marks", clusters);
         return false;
     }
     bool fine = check_child(h, &all, (struct boxtree_child){0, 0}, 0, seen, error);
@@ -312,7 +314,7 @@ static bool validate(const accel *a, accel_error *error)
 {
     const struct hoo_kind *h = (const struct hoo_kind *)a;
     if (h->wide.base)
-        return wide_validate(a, &h->wide, error);
+        return accel_wide_validate(a, &h->wide, error);
     return check_clusters(h, error) && check_top(h, error);
 }
 
@@ -320,16 +322,16 @@ static void release(accel *a)
 {
     struct hoo_kind *h = (struct hoo_kind *)a;
     for (size_t i = 0; i < h->later.count; i++)
-        octree_free_parts(&h->lazy, &h->later.at[i]);
+        accel_octree_free_parts(&h->lazy, &h->later.at[i]);
     array_free(&a->memory, &h->later);
-    cluster_free(&a->memory, &h->clustering);
-    octree_pool_free(&a->memory, &h->pool);
+    accel_cluster_free(&a->memory, &h->clustering);
+    accel_octree_pool_free(&a->memory, &h->pool);
     array_free(&a->memory, &h->trees);
     array_free(&a->memory, &h->top.nodes);
-    wide_free(&a->memory, &h->wide);
+    accel_wide_free(&a->memory, &h->wide);
 }
 
-const struct accel_kind hoo_kind = {
+const struct accel_kind accel_hoo_kind = {
     .info = {.name = "hoo",
              .summary = "hierarchy of octrees: clusters, an octree for each, a binary tree on top",
              .options = options,

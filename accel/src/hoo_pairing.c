@@ -37,11 +37,11 @@ static bool fill(struct pairer *p, struct keyed *order,
     p->frame = frame_of(&all);
     for (size_t i = 0; i < p->total; i++) {
         const accel_box unit = frame_box(&p->frame, box_of(user, i));
-        order[i] = (struct keyed){order_morton(&unit), (uint32_t)i};
+        order[i] = (struct keyed){accel_order_morton(&unit), (uint32_t)i};
     }
-    if (!order_by_key(memory_of(p), order, p->total) ||
+    if (!accel_order_by_key(memory_of(p), order, p->total) ||
         !array_extend(memory_of(p), &p->items, p->total))
-        return build_no_memory(p->build);
+        return accel_build_no_memory(p->build);
     for (size_t i = 0; i < p->total; i++)
         p->items.at[i] = (struct item){*box_of(user, order[i].value), {order[i].value, 1}, 0, 0};
     return true;
@@ -81,7 +81,8 @@ static bool choose(struct pairer *p)
 {
     for (size_t i = 0; i < p->items.count; i++) {
         p->items.at[i].partner = best_partner(p, i);
-        if (i % 1024 == 0 && !build_tick(p->build, 1.0 - (double)p->items.count / (double)p->total))
+        if (i % 1024 == 0 &&
+            !accel_build_tick(p->build, 1.0 - (double)p->items.count / (double)p->total))
             return false;
     }
     return true;
@@ -175,7 +176,7 @@ static void put_root_first(struct boxtree *tree)
 static bool pair_up(struct pairer *p)
 {
     if (!array_reserve(memory_of(p), &p->tree->nodes, p->total - 1))
-        return build_no_memory(p->build);
+        return accel_build_no_memory(p->build);
     while (p->items.count > 1) {
         if (!choose(p))
             return false;
@@ -187,16 +188,16 @@ static bool pair_up(struct pairer *p)
     return true;
 }
 
-bool pair_boxes(struct build *build, struct boxtree *tree, size_t count,
-                const accel_box *(*box_of)(const void *user, size_t i), const void *user)
+bool accel_pair_boxes(struct build *build, struct boxtree *tree, size_t count,
+                      const accel_box *(*box_of)(const void *user, size_t i), const void *user)
 {
     struct pairer p = {.build = build, .tree = tree, .total = count};
     struct memory *m = memory_of(&p);
-    struct keyed *order = memory_resize(m, NULL, 0, count * sizeof *order);
-    bool fine = order || build_no_memory(build);
+    struct keyed *order = accel_memory_resize(m, NULL, 0, count * sizeof *order);
+    bool fine = order || accel_build_no_memory(build);
     if (order) {
         fine = fill(&p, order, box_of, user);
-        memory_resize(m, order, count * sizeof *order, 0);
+        accel_memory_resize(m, order, count * sizeof *order, 0);
     }
     fine = fine && pair_up(&p);
     array_free(m, &p.items);

@@ -24,7 +24,7 @@ struct boxtree {
 
 /* Builds a tree over the boxes of leaves 0 .. count - 1, count > 1; leaf i is the child {i, 1}.
  * box_of(user, i) is the i-th box. Progress of the phase runs from 0 to 1. */
-bool pair_boxes(struct build *build, struct boxtree *tree, size_t count,
-                const accel_box *(*box_of)(const void *user, size_t i), const void *user);
+bool accel_pair_boxes(struct build *build, struct boxtree *tree, size_t count,
+                      const accel_box *(*box_of)(const void *user, size_t i), const void *user);
 
 #endif

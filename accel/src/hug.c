@@ -50,7 +50,7 @@ static bool visit(const accel *a, struct query *q, const uint32_t *refs, size_t 
     size_t tested = count;
     while (tested > 0 && refs[tested - 1] >= ids)
         tested--;
-    query_test_list(q, refs, tested);
+    accel_query_test_list(q, refs, tested);
     if (query_done(q))
         return false;
     for (size_t i = tested; i < count; i++) {
@@ -68,10 +68,10 @@ static void walk(const accel *a, struct query *q)
 
 static void release(accel *a)
 {
-    grid_pool_free(&a->memory, &((struct hug *)a)->pool);
+    accel_grid_pool_free(&a->memory, &((struct hug *)a)->pool);
 }
 
-const struct accel_kind hug_kind = {
+const struct accel_kind accel_hug_kind = {
     .info = {.name = "hug",
              .summary = "clusters, a uniform grid each, nested",
              .options = options,
@@ -84,8 +84,8 @@ const struct accel_kind hug_kind = {
              .mesh = 1,
              .growth = GROWS_LIKE_FIFTH_ROOT},
     .size = sizeof(struct hug),
-    .build = hug_build,
+    .build = accel_hug_build,
     .walk = walk,
-    .validate = hug_validate,
+    .validate = accel_hug_validate,
     .release = release,
 };

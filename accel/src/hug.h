@@ -52,14 +52,14 @@ struct hug_nesting {
 #define HUG_NESTED 0.6
 
 /* Makes grid 0 and the other clusters' grids, with box and depth alone, and fills the nesting,
- * which must be zero; hug_nesting_free ends it, also after a failure. Progress of the phase runs
- * from 0 to HUG_NESTED. */
-bool hug_nest(struct build *build, struct grid_pool *pool, const struct clustering *c,
-              struct hug_nesting *n);
+ * which must be zero; accel_hug_nesting_free ends it, also after a failure. Progress of the phase
+ * runs from 0 to HUG_NESTED. */
+bool accel_hug_nest(struct build *build, struct grid_pool *pool, const struct clustering *c,
+                    struct hug_nesting *n);
 
-void hug_nesting_free(struct memory *m, struct hug_nesting *n);
+void accel_hug_nesting_free(struct memory *m, struct hug_nesting *n);
 
-bool hug_build(struct build *build);
-bool hug_validate(const accel *a, accel_error *error);
+bool accel_hug_build(struct build *build);
+bool accel_hug_validate(const accel *a, accel_error *error);
 
 #endif

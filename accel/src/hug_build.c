@@ -5,7 +5,7 @@
  *
  * A crowded cell is decided upon while its grid's references are the last of the pool, so taking
  * its list out moves only what is behind it. Time is linear in the references. References in all
- * are bounded by BUDGET, each grid's by grid_plan_references.
+ * are bounded by BUDGET, each grid's by accel_grid_plan_references.
  */
 #include "hug.h"
 
@@ -71,7 +71,7 @@ static bool count_items(struct builder *b)
     const struct ids *home = &b->nesting.home;
     const size_t grids = b->h->pool.grids.count;
     if (!array_extend(&b->build->a->memory, &b->begin, grids + 1))
-        return build_no_memory(b->build);
+        return accel_build_no_memory(b->build);
     memset(b->begin.at, 0, b->begin.count * sizeof *b->begin.at);
     for (size_t i = 0; i < c->clusters.count; i++)
         b->begin.at[home->at[i] + 1] += c->clusters.at[i].count;
@@ -89,8 +89,9 @@ static bool enter_items(struct builder *b, const uint32_t *home_of)
     for (size_t i = 0; i < p->bounded.count; i++) {
         const uint32_t id = p->bounded.at[i];
         b->items.at[b->begin.at[home_of[id]]++] = id;
-        if (i % 4096 == 0 && !build_tick(b->build, HUG_NESTED + (1.0 - HUG_NESTED) * (double)i /
-                                                                    (double)p->bounded.count))
+        if (i % 4096 == 0 &&
+            !accel_build_tick(b->build, HUG_NESTED + (1.0 - HUG_NESTED) * (double)i /
+                                                         (double)p->bounded.count))
             return false;
     }
     for (size_t i = 1; i < b->h->pool.grids.count; i++)
@@ -119,7 +120,7 @@ static bool gather_items(struct builder *b)
     const size_t total = b->begin.at[b->begin.count - 1];
     fine = (array_extend(m, &home_of, b->build->a->prims.count) &&
             array_extend(m, &b->items, total)) ||
-           build_no_memory(b->build);
+           accel_build_no_memory(b->build);
     if (fine) {
         find_homes(b, home_of.at);
         fine = enter_items(b, home_of.at);
@@ -192,10 +193,10 @@ static bool worth_a_grid(const struct builder *b, const accel_box *cell, const a
 {
     const struct primitives *p = &b->build->a->prims;
     const double share = mean_blame(b, cell, items), chance = box_chance(box, cell);
-    const double list = share * grid_list_cost(p, items);
+    const double list = share * accel_grid_list_cost(p, items);
     if (list <= chance * GRID_BEGIN_COST)
         return false;
-    *plan = grid_plan(p, &b->h->pool, box, items, b->build->a->option[HUG_DENSITY]);
+    *plan = accel_grid_plan(p, &b->h->pool, box, items, b->build->a->option[HUG_DENSITY]);
     if (plan->cells[0] == 1 && plan->cells[1] == 1 && plan->cells[2] == 1)
         return false;
     return chance * (plan->cost - (1.0 - share) * plan->tests) < list;
@@ -232,7 +233,7 @@ static bool add_job(struct builder *b, const accel_box *box, uint32_t depth,
     const struct job job = {*plan, pool->grids.count, b->stack.count, items.count};
     if (!array_extend(m, &b->jobs, 1) || !array_extend(m, &b->stack, items.count) ||
         !array_extend(m, &pool->grids, 1))
-        return build_no_memory(b->build);
+        return accel_build_no_memory(b->build);
     memcpy(b->stack.at + job.begin, items.at, items.count * sizeof *items.at);
     b->jobs.at[b->jobs.count - 1] = job;
     pool->grids.at[job.number] = (struct grid){.box = *box, .depth = depth, .cell = 1};
@@ -281,7 +282,7 @@ static bool take_crowded(struct builder *b, size_t number, struct span span)
             to += taken ? 0 : items.count;
             begin += items.count;
         }
-        if (!build_tick(b->build, part_of(span, cells - left, cells, cells).from))
+        if (!accel_build_tick(b->build, part_of(span, cells - left, cells, cells).from))
             return false;
     }
     pool->starts.at[slot] = (uint32_t)to;
@@ -304,7 +305,8 @@ static bool refine(struct builder *b, size_t number, uint32_t nesting, struct sp
         const struct grid_items items = {b->stack.at + job.begin, job.count};
         const struct span its = part_of(second_half(span), before, before + job.count, all);
         const struct span own = first_half(its);
-        if (!grid_build(b->build, &b->h->pool, job.number, items, &job.plan, own.from, own.to) ||
+        if (!accel_grid_build(b->build, &b->h->pool, job.number, items, &job.plan, own.from,
+                              own.to) ||
             !refine(b, job.number, nesting + 1, second_half(its)))
             return false;
     }
@@ -323,13 +325,14 @@ static bool build_grid(struct builder *b, size_t number)
     const size_t begin = b->begin.at[number];
     const struct grid_items items = {b->items.at + begin, b->begin.at[number + 1] - begin};
     const bool paper = a->option[HUG_FORM] == HUG_FORM_PAPER;
-    struct grid_plan plan = paper ? grid_plan_given(box, (uint32_t)a->option[HUG_CELLS])
-                                  : grid_plan(&a->prims, pool, box, items, a->option[HUG_DENSITY]);
+    struct grid_plan plan =
+        paper ? accel_grid_plan_given(box, (uint32_t)a->option[HUG_CELLS])
+              : accel_grid_plan(&a->prims, pool, box, items, a->option[HUG_DENSITY]);
     const struct span its =
         part_of((struct span){0.0, 1.0}, begin, begin + items.count, b->items.count);
     const struct span own = paper ? its : first_half(its);
     deepen(b, items, pool->grids.at[number].depth);
-    if (!grid_build(b->build, pool, number, items, &plan, own.from, own.to))
+    if (!accel_grid_build(b->build, pool, number, items, &plan, own.from, own.to))
         return false;
     b->coarser |= plan.coarser;
     return (paper || refine(b, number, 0, second_half(its))) &&
@@ -354,22 +357,24 @@ static void note(const struct builder *b)
 {
     const struct grid_pool *pool = &b->h->pool;
     const size_t lists = b->nesting.lists, clusters = b->clustering.clusters.count;
-    const size_t made = grid_pool_bytes(pool);
+    const size_t made = accel_grid_pool_bytes(pool);
     if (clusters == 1)
-        build_left_out(b->build, GRID_LEAST_BYTES, made, "one cluster: no grid above its grid");
+        accel_build_left_out(b->build, GRID_LEAST_BYTES, made,
+                             "one cluster: no grid above its grid");
     else if (lists > 0)
-        build_left_out(b->build, lists * GRID_LEAST_BYTES, made,
-                       "%zu of %zu clusters are short: items of the grid around, no grids", lists,
-                       clusters);
-    grid_note_empty(b->build, pool);
+        accel_build_left_out(b->build, lists * GRID_LEAST_BYTES, made,
+                             "%zu of %zu clusters are short: items of the grid around, no grids",
+                             lists, clusters);
+    accel_grid_note_empty(b->build, pool);
     if (b->build->a->option[HUG_FORM] == HUG_FORM_PAPER && !isnan(b->build->a->option[HUG_DENSITY]))
-        build_note(b->build, "density is not used: it is for form=density");
+        accel_build_note(b->build, "density is not used: it is for form=density");
     if (b->coarser)
-        build_note(b->build, "some grids are coarser than asked for: for memory in proportion, "
-                             "or as cells list most items");
+        accel_build_note(b->build,
+                         "some grids are coarser than asked for: for memory in proportion, "
+                         "or as cells list most items");
     if (b->full)
-        build_note(b->build, "crowded cells stayed lists: %d references per primitive were met",
-                   BUDGET);
+        accel_build_note(
+            b->build, "crowded cells stayed lists: %d references per primitive were met", BUDGET);
 }
 
 static bool run(struct builder *b)
@@ -377,29 +382,29 @@ static bool run(struct builder *b)
     struct build *build = b->build;
     const double *option = build->a->option;
     const struct cluster_rule rule = {option[HUG_CONNECTIVITY], option[HUG_OCTAVES]};
-    build_phase(build, "clusters");
-    if (!cluster_scene(build, &b->clustering, rule, 0.0, 1.0))
+    accel_build_phase(build, "clusters");
+    if (!accel_cluster_scene(build, &b->clustering, rule, 0.0, 1.0))
         return false;
-    build_phase(build, "nesting");
-    if (!hug_nest(build, &b->h->pool, &b->clustering, &b->nesting) || !gather_items(b))
+    accel_build_phase(build, "nesting");
+    if (!accel_hug_nest(build, &b->h->pool, &b->clustering, &b->nesting) || !gather_items(b))
         return false;
-    build_phase(build, "grids");
+    accel_build_phase(build, "grids");
     for (size_t i = 0; i + 1 < b->begin.count; i++)
         if (!build_grid(b, i))
             return false;
-    grid_pool_trim(&build->a->memory, &b->h->pool);
+    accel_grid_pool_trim(&build->a->memory, &b->h->pool);
     describe(b);
     note(b);
     return true;
 }
 
-bool hug_build(struct build *build)
+bool accel_hug_build(struct build *build)
 {
     struct builder b = {.build = build, .h = (struct hug *)build->a};
     struct memory *m = &build->a->memory;
     const bool fine = run(&b);
-    cluster_free(m, &b.clustering);
-    hug_nesting_free(m, &b.nesting);
+    accel_cluster_free(m, &b.clustering);
+    accel_hug_nesting_free(m, &b.nesting);
     array_free(m, &b.items);
     array_free(m, &b.begin);
     array_free(m, &b.stack);

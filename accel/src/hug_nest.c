@@ -47,11 +47,11 @@ static bool rank(struct nester *s)
     const size_t count = s->c->clusters.count;
     if (!array_extend(m, &s->order, count) || !array_extend(m, &s->rank, count) ||
         !array_extend(m, &s->around, count) || !array_extend(m, &s->n->home, count))
-        return build_no_memory(s->build);
+        return accel_build_no_memory(s->build);
     for (uint32_t i = 0; i < count; i++)
         s->order.at[i] = (struct keyed){falling(box_area(&s->c->clusters.at[i].box)), i};
-    if (!order_by_key(m, s->order.at, count))
-        return build_no_memory(s->build);
+    if (!accel_order_by_key(m, s->order.at, count))
+        return accel_build_no_memory(s->build);
     for (uint32_t i = 0; i < count; i++)
         s->rank.at[s->order.at[i].value] = i;
     return true;
@@ -77,16 +77,17 @@ static bool make_search(struct nester *s)
     const uint32_t count = (uint32_t)s->c->clusters.count, ids = s->build->a->prims.count;
     struct ids refs = {NULL, 0, 0};
     if ((uint64_t)ids + count + 1 > ACCEL_NONE) {
-        error_set(s->build->error, ACCEL_TOO_LARGE,
-                  "build hug: %u primitives and %u grids, at most 4294967294 together are allowed; "
-                  "nothing was built",
-                  ids, count);
+        accel_error_set(
+            s->build->error, ACCEL_TOO_LARGE,
+            "build hug: %u primitives and %u grids, at most 4294967294 together are allowed; "
+            "nothing was built",
+            ids, count);
         return false;
     }
     if (!array_extend(m, &s->search.grids, (size_t)count + 1))
-        return build_no_memory(s->build);
+        return accel_build_no_memory(s->build);
     s->search.grids.at[0] = (struct grid){.box = all_clusters(s->c)};
-    bool fine = array_reserve(m, &refs, count) || build_no_memory(s->build);
+    bool fine = array_reserve(m, &refs, count) || accel_build_no_memory(s->build);
     for (uint32_t i = 0; fine && i < count; i++) {
         s->search.grids.at[i + 1] = (struct grid){.box = s->c->clusters.at[i].box};
         if (has_grid(s, i))
@@ -94,9 +95,9 @@ static bool make_search(struct nester *s)
     }
     if (fine && refs.count > 0) {
         const struct grid_items items = {refs.at, refs.count};
-        struct grid_plan plan = grid_plan(&s->build->a->prims, &s->search,
-                                          &s->search.grids.at[0].box, items, (double)NAN);
-        fine = grid_build(s->build, &s->search, 0, items, &plan, 0.0, SEARCHABLE);
+        struct grid_plan plan = accel_grid_plan(&s->build->a->prims, &s->search,
+                                                &s->search.grids.at[0].box, items, (double)NAN);
+        fine = accel_grid_build(s->build, &s->search, 0, items, &plan, 0.0, SEARCHABLE);
     }
     array_free(m, &refs);
     return fine;
@@ -146,8 +147,8 @@ static uint32_t find_around(const struct nester *s, uint32_t inner)
 /* Reports progress between two parts of the phase after i of the clusters. */
 static bool tick(const struct nester *s, size_t i, double from, double to)
 {
-    return i % 4096 != 0 ||
-           build_tick(s->build, from + (to - from) * (double)i / (double)s->c->clusters.count);
+    return i % 4096 != 0 || accel_build_tick(s->build, from + (to - from) * (double)i /
+                                                                  (double)s->c->clusters.count);
 }
 
 /* Finds every cluster's surroundings, and how many clusters lie in no other's grid. */
@@ -167,7 +168,7 @@ static bool add_grid(struct nester *s, const accel_box *box, uint32_t parent, ui
 {
     struct memory *m = &s->build->a->memory;
     if (!array_extend(m, &s->pool->grids, 1) || !array_extend(m, &s->n->parent, 1))
-        return build_no_memory(s->build);
+        return accel_build_no_memory(s->build);
     s->pool->grids.at[s->pool->grids.count - 1] = (struct grid){.box = *box, .depth = depth};
     s->n->parent.at[s->n->parent.count - 1] = parent;
     return true;
@@ -208,22 +209,22 @@ static bool place_all(struct nester *s, size_t outermost)
     return true;
 }
 
-bool hug_nest(struct build *build, struct grid_pool *pool, const struct clustering *c,
-              struct hug_nesting *n)
+bool accel_hug_nest(struct build *build, struct grid_pool *pool, const struct clustering *c,
+                    struct hug_nesting *n)
 {
     struct nester s = {.build = build, .c = c, .pool = pool, .n = n};
     struct memory *m = &build->a->memory;
     size_t outermost;
     const bool fine =
         rank(&s) && make_search(&s) && find_all(&s, &outermost) && place_all(&s, outermost);
-    grid_pool_free(m, &s.search);
+    accel_grid_pool_free(m, &s.search);
     array_free(m, &s.order);
     array_free(m, &s.rank);
     array_free(m, &s.around);
     return fine;
 }
 
-void hug_nesting_free(struct memory *m, struct hug_nesting *n)
+void accel_hug_nesting_free(struct memory *m, struct hug_nesting *n)
 {
     array_free(m, &n->home);
     array_free(m, &n->parent);

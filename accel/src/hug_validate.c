@@ -20,7 +20,7 @@ struct checker {
 
 static bool broken(const struct checker *c, const char *what, size_t number)
 {
-    error_set(c->error, ACCEL_BROKEN, "%s: %s %zu", c->a->kind->info.name, what, number);
+    accel_error_set(c->error, ACCEL_BROKEN, "%s: %s %zu", c->a->kind->info.name, what, number);
     return false;
 }
 
@@ -94,8 +94,9 @@ static bool check_grids(const struct checker *c)
             c->items[c->begin[c->home[ref]]++] = ref;
     for (size_t i = 0, begin = 0; i < c->pool->grids.count; begin = c->begin[i++])
         if (!c->pool->grids.at[i].cell &&
-            !grid_validate(c->a, c->pool, i,
-                           (struct grid_items){c->items + begin, c->begin[i] - begin}, c->error))
+            !accel_grid_validate(c->a, c->pool, i,
+                                 (struct grid_items){c->items + begin, c->begin[i] - begin},
+                                 c->error))
             return false;
     return true;
 }
@@ -107,7 +108,7 @@ static bool check(const struct checker *c)
     if (c->a->info.depth > HUG_MAX_DEPTH)
         return broken(c, "grids lie too deep, at", c->a->info.depth);
     for (size_t i = 0; i < c->pool->grids.count; i++)
-        if (!grid_validate_frame(c->a, c->pool, i, c->error))
+        if (!accel_grid_validate_frame(c->a, c->pool, i, c->error))
             return false;
     for (size_t i = 0; i < c->pool->grids.count; i++)
         if (!c->pool->grids.at[i].cell && !find_homes(c, i, (uint32_t)i))
@@ -115,7 +116,7 @@ static bool check(const struct checker *c)
     return count_items(c) && check_grids(c);
 }
 
-bool hug_validate(const accel *a, accel_error *error)
+bool accel_hug_validate(const accel *a, accel_error *error)
 {
     struct checker c = {.a = a, .pool = &((const struct hug *)a)->pool, .error = error};
     c.home = malloc(references(&c) * sizeof *c.home);
@@ -125,7 +126,8 @@ bool hug_validate(const accel *a, accel_error *error)
     if (c.home && c.items && c.begin)
         fine = check(&c);
     else
-        error_set(error, ACCEL_NO_MEMORY, "validate: no memory for %zu items", references(&c));
+        accel_error_set(error, ACCEL_NO_MEMORY, "validate: no memory for %zu items",
+                        references(&c));
     free(c.home);
     free(c.items);
     free(c.begin);

@@ -86,15 +86,15 @@ struct accel_kind {
 };
 
 /* The kinds, NULL-ended; each is the `info` of an accel_kind. */
-extern const accel_kind_info *const kinds[];
+extern const accel_kind_info *const accel_kind_list[];
 
 /* Starts the next phase of the build and notes the time of the last one. */
-void build_phase(struct build *build, const char *name);
+void accel_build_phase(struct build *build, const char *name);
 
 /* Tells the progress hook how far the phase is, at most every few milliseconds; call it often. What
  * is told is the most of the phase so far, and in 0..1, whatever `done` is: a builder that takes
  * work back, or whose guess was too high, need not care. False if the build is cancelled. */
-bool build_tick(struct build *build, double done);
+bool accel_build_tick(struct build *build, double done);
 
 /* The same in small steps: after each, tell how many primitives it looked at. To ask for the time
  * takes as long as to make a small leaf, so that is done once for thousands. */
@@ -105,21 +105,23 @@ static inline bool build_step(struct build *build, size_t looked_at, double done
     if (build->untold < PRIMITIVES_A_TICK)
         return true;
     build->untold = 0;
-    return build_tick(build, done);
+    return accel_build_tick(build, done);
 }
 
 /* Notes that memory ran out, which the failed allocation left in a->memory. Returns false. */
-bool build_no_memory(struct build *build);
+bool accel_build_no_memory(struct build *build);
 
 /* Adds to accel_info.left_out something that would take so many bytes; the phase under way made
  * `made` bytes of that sort. */
-__attribute__((format(printf, 4, 5))) void build_left_out(struct build *build, size_t bytes,
-                                                          size_t made, const char *format, ...);
+__attribute__((format(printf, 4, 5))) void
+accel_build_left_out(struct build *build, size_t bytes, size_t made, const char *format, ...);
 
 /* Adds a line to accel_info.notes: why something was chosen, or a limit that was met. Once. */
-__attribute__((format(printf, 2, 3))) void build_note(struct build *build, const char *format, ...);
+__attribute__((format(printf, 2, 3))) void accel_build_note(struct build *build, const char *format,
+                                                            ...);
 
 /* The same, of a description. */
-__attribute__((format(printf, 2, 3))) void info_note(accel_info *info, const char *format, ...);
+__attribute__((format(printf, 2, 3))) void accel_info_note(accel_info *info, const char *format,
+                                                           ...);
 
 #endif

@@ -18,7 +18,7 @@ static bool build(struct build *build)
 
 static void walk(const accel *a, struct query *q)
 {
-    query_test_all(q, a->prims.bounded.at, a->prims.bounded.count);
+    accel_query_test_all(q, a->prims.bounded.at, a->prims.bounded.count);
 }
 
 static bool validate(const accel *a, accel_error *error)
@@ -33,7 +33,7 @@ static void release(accel *a)
     (void)a;
 }
 
-const struct accel_kind linear_kind = {
+const struct accel_kind accel_linear_kind = {
     .info = {.name = "linear", .summary = "no structure: tests every primitive; judges the others"},
     .cost = {.build = 0,
              .ray = 40,

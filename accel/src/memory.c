@@ -4,7 +4,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 
-void *memory_system(void *user, void *old, size_t from, size_t to)
+void *accel_memory_system(void *user, void *old, size_t from, size_t to)
 {
     (void)user;
     (void)from;
@@ -15,7 +15,7 @@ void *memory_system(void *user, void *old, size_t from, size_t to)
     return realloc(old, to);
 }
 
-void *memory_resize(struct memory *m, void *old, size_t from, size_t to)
+void *accel_memory_resize(struct memory *m, void *old, size_t from, size_t to)
 {
     if (from == to)
         return old;
@@ -30,7 +30,7 @@ void *memory_resize(struct memory *m, void *old, size_t from, size_t to)
     return block;
 }
 
-bool memory_room(struct memory *m, void **at, size_t *room, size_t need, size_t size)
+bool accel_memory_room(struct memory *m, void **at, size_t *room, size_t need, size_t size)
 {
     if (need <= *room)
         return true;
@@ -41,7 +41,7 @@ bool memory_room(struct memory *m, void **at, size_t *room, size_t need, size_t 
         m->refused = SIZE_MAX;
         return false;
     }
-    void *block = memory_resize(m, *at, *room * size, grown * size);
+    void *block = accel_memory_resize(m, *at, *room * size, grown * size);
     if (!block)
         return false;
     *at = block;

@@ -19,13 +19,13 @@ struct memory {
 };
 
 /* The hook that stands for none: realloc and free. */
-void *memory_system(void *user, void *old, size_t from, size_t to);
+void *accel_memory_system(void *user, void *old, size_t from, size_t to);
 
 /* Allocates (old NULL), resizes or frees (to 0). NULL if there is none; old is then as before. */
-void *memory_resize(struct memory *m, void *old, size_t from, size_t to);
+void *accel_memory_resize(struct memory *m, void *old, size_t from, size_t to);
 
 /* Gives `*at`, an array of `*room` elements of `size` bytes, room for `need` of them. */
-bool memory_room(struct memory *m, void **at, size_t *room, size_t need, size_t size);
+bool accel_memory_room(struct memory *m, void **at, size_t *room, size_t need, size_t size);
 
 /* A growable array: at[0 .. count - 1] are in use, there is room for `room`. Zero is empty. */
 #define ARRAY_OF(type)                                                                             \
@@ -35,7 +35,7 @@ bool memory_room(struct memory *m, void **at, size_t *room, size_t need, size_t 
     }
 
 #define array_reserve(m, a, need)                                                                  \
-    memory_room((m), (void **)&(a)->at, &(a)->room, (need), sizeof *(a)->at)
+    accel_memory_room((m), (void **)&(a)->at, &(a)->room, (need), sizeof *(a)->at)
 
 /* Makes `more` new elements at the end; their content is undefined. */
 #define array_extend(m, a, more)                                                                   \
@@ -44,8 +44,8 @@ bool memory_room(struct memory *m, void **at, size_t *room, size_t need, size_t 
 /* Gives back the room that is not used. */
 #define array_trim(m, a)                                                                           \
     do {                                                                                           \
-        void *trimmed_ = memory_resize((m), (a)->at, (a)->room * sizeof *(a)->at,                  \
-                                       (a)->count * sizeof *(a)->at);                              \
+        void *trimmed_ = accel_memory_resize((m), (a)->at, (a)->room * sizeof *(a)->at,            \
+                                             (a)->count * sizeof *(a)->at);                        \
         if (trimmed_ || (a)->count == 0) {                                                         \
             (a)->at = trimmed_;                                                                    \
             (a)->room = (a)->count;                                                                \
@@ -54,7 +54,7 @@ bool memory_room(struct memory *m, void **at, size_t *room, size_t need, size_t 
 
 #define array_free(m, a)                                                                           \
     do {                                                                                           \
-        memory_resize((m), (a)->at, (a)->room * sizeof *(a)->at, 0);                               \
+        accel_memory_resize((m), (a)->at, (a)->room * sizeof *(a)->at, 0);                         \
         (a)->at = NULL;                                                                            \
         (a)->count = (a)->room = 0;                                                                \
     } while (0)

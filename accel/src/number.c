@@ -69,7 +69,7 @@ static void put_scientific(char *to, size_t size, const struct decimal *d)
              d->digit + 1, d->exponent < 0 ? '-' : '+', abs(d->exponent));
 }
 
-struct number_text number_text(double x, int digits)
+struct number_text accel_number_text(double x, int digits)
 {
     struct number_text text = {""};
     char *to = text.at;
@@ -87,14 +87,14 @@ struct number_text number_text(double x, int digits)
     return text;
 }
 
-struct number_text number_text_exact(double x)
+struct number_text accel_number_text_exact(double x)
 {
     struct number_text text;
     int digits = 15;
     double back;
     do
-        text = number_text(x, digits);
-    while (++digits <= 17 && number_parse(text.at, strlen(text.at), &back) && back != x);
+        text = accel_number_text(x, digits);
+    while (++digits <= 17 && accel_number_parse(text.at, strlen(text.at), &back) && back != x);
     return text;
 }
 
@@ -161,7 +161,7 @@ static bool read_exponent(struct reader *r)
     return true;
 }
 
-bool number_parse(const char *at, size_t size, double *out)
+bool accel_number_parse(const char *at, size_t size, double *out)
 {
     struct reader r = {.at = at, .end = at + size, .count = 0, .exponent = 0};
     const bool minus = read_minus(&r);

@@ -14,13 +14,13 @@ struct number_text {
 };
 
 /* As %g of so many digits, 17 at most, prints it in the C locale. */
-struct number_text number_text(double x, int digits);
+struct number_text accel_number_text(double x, int digits);
 
-/* With the fewest digits, 15 or more, that number_parse reads as x again. */
-struct number_text number_text_exact(double x);
+/* With the fewest digits, 15 or more, that accel_number_parse reads as x again. */
+struct number_text accel_number_text_exact(double x);
 
 /* [sign]digits[.digits][e[sign]digits]: no blanks, hexadecimal, inf or nan. Rounded once, to
  * nearest; infinite beyond double's range. False if it is not that. */
-bool number_parse(const char *at, size_t size, double *out);
+bool accel_number_parse(const char *at, size_t size, double *out);
 
 #endif

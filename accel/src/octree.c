@@ -53,13 +53,13 @@ static bool build_classic(struct build *build, struct octree_kind *o)
     const accel_box tight = p->bounds;
     const accel_box root = o->base.option[ROOT] == 0 ? cube_around(&tight) : tight;
     const struct octree_rule rule = {o->base.option[LEAF], o->base.option[DEPTH]};
-    build_phase(build, "octree");
-    if (!octree_build(build, &o->pool, &o->tree, p->bounded.at, p->bounded.count, &root, rule, 0,
-                      1))
+    accel_build_phase(build, "octree");
+    if (!accel_octree_build(build, &o->pool, &o->tree, p->bounded.at, p->bounded.count, &root, rule,
+                            0, 1))
         return false;
-    octree_pool_trim(&o->base.memory, &o->pool);
-    octree_note_empty(build, &o->pool);
-    octree_note_lists(build, &o->pool, &o->tree, 1);
+    accel_octree_pool_trim(&o->base.memory, &o->pool);
+    accel_octree_note_empty(build, &o->pool);
+    accel_octree_note_lists(build, &o->pool, &o->tree, 1);
     o->base.info.nodes = o->pool.nodes;
     o->base.info.leaves = o->pool.leaves;
     o->base.info.references = o->pool.refs.count;
@@ -74,35 +74,35 @@ static bool build(struct build *build)
     option[FORM] = wide_form_resolve(option[FORM], classic);
     return option[FORM] == WIDE_FORM_CLASSIC
                ? build_classic(build, o)
-               : wide_form_build(build, &o->wide, &option[ISA], WIDE_BY_OCTANTS, NULL);
+               : accel_wide_form_build(build, &o->wide, &option[ISA], WIDE_BY_OCTANTS, NULL);
 }
 
 static void walk(const accel *a, struct query *q)
 {
     const struct octree_kind *o = (const struct octree_kind *)a;
     if (o->wide.base)
-        wide_form_walk(&o->wide, q);
+        accel_wide_form_walk(&o->wide, q);
     else
-        octree_walk(&o->pool, &o->tree, q);
+        accel_octree_walk(&o->pool, &o->tree, q);
 }
 
 static bool validate(const accel *a, accel_error *error)
 {
     const struct octree_kind *o = (const struct octree_kind *)a;
     if (o->wide.base)
-        return wide_validate(a, &o->wide, error);
-    return octree_validate(a, &o->pool, &o->tree, a->prims.bounded.at, a->prims.bounded.count,
-                           error);
+        return accel_wide_validate(a, &o->wide, error);
+    return accel_octree_validate(a, &o->pool, &o->tree, a->prims.bounded.at, a->prims.bounded.count,
+                                 error);
 }
 
 static void release(accel *a)
 {
     struct octree_kind *o = (struct octree_kind *)a;
-    octree_pool_free(&a->memory, &o->pool);
-    wide_free(&a->memory, &o->wide);
+    accel_octree_pool_free(&a->memory, &o->pool);
+    accel_wide_free(&a->memory, &o->wide);
 }
 
-const struct accel_kind octree_kind = {
+const struct accel_kind accel_octree_kind = {
     .info = {.name = "octree",
              .summary = "one octree over the scene",
              .options = options,

@@ -93,29 +93,30 @@ struct octree_rule {
 
 /* Builds an octree over ids[0 .. count - 1], count > 0, all inside `box`. Adds to the counts in
  * build->a->info; the progress of the phase runs from `from` to `to`. */
-bool octree_build(struct build *build, struct octree_pool *pool, struct octree *tree,
-                  const uint32_t *ids, size_t count, const accel_box *box, struct octree_rule rule,
-                  double from, double to);
+bool accel_octree_build(struct build *build, struct octree_pool *pool, struct octree *tree,
+                        const uint32_t *ids, size_t count, const accel_box *box,
+                        struct octree_rule rule, double from, double to);
 
 /* Notes that cells above the given depth were left whole. */
-void octree_note_refused(accel_info *info);
+void accel_octree_note_refused(accel_info *info);
 
-void octree_walk(const struct octree_pool *pool, const struct octree *tree, struct query *q);
+void accel_octree_walk(const struct octree_pool *pool, const struct octree *tree, struct query *q);
 
 /* Checks the invariant for an octree over ids[0 .. count - 1]. */
-bool octree_validate(const accel *a, const struct octree_pool *pool, const struct octree *tree,
-                     const uint32_t *ids, size_t count, accel_error *error);
+bool accel_octree_validate(const accel *a, const struct octree_pool *pool,
+                           const struct octree *tree, const uint32_t *ids, size_t count,
+                           accel_error *error);
 
 /* Bytes of nodes and references. */
-size_t octree_pool_bytes(const struct octree_pool *pool);
+size_t accel_octree_pool_bytes(const struct octree_pool *pool);
 
 /* Notes what empty cells would take; what the smallest octrees would in place of lists. */
-void octree_note_empty(struct build *build, const struct octree_pool *pool);
-void octree_note_lists(struct build *build, const struct octree_pool *pool,
-                       const struct octree *trees, size_t count);
+void accel_octree_note_empty(struct build *build, const struct octree_pool *pool);
+void accel_octree_note_lists(struct build *build, const struct octree_pool *pool,
+                             const struct octree *trees, size_t count);
 
-void octree_pool_trim(struct memory *m, struct octree_pool *pool);
-void octree_pool_free(struct memory *m, struct octree_pool *pool);
+void accel_octree_pool_trim(struct memory *m, struct octree_pool *pool);
+void accel_octree_pool_free(struct memory *m, struct octree_pool *pool);
 
 /* The options `leaf` and `depth`, for kinds that hold octrees. */
 #define OCTREE_LEAF_OPTION                                                                         \

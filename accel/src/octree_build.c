@@ -228,7 +228,7 @@ static bool may_split(struct grower *g, struct task *t, const struct split *s)
 
 static bool too_large(const struct grower *g, const char *what)
 {
-    error_set(
+    accel_error_set(
         g->build->error, ACCEL_TOO_LARGE,
         "build %s: more than 4294967295 %s; nothing was built, allow more primitives per leaf "
         "or less depth",
@@ -243,7 +243,7 @@ static bool make_leaf(struct grower *g, const struct task *t, struct octree_cell
     if (first + t->count > ACCEL_NONE)
         return too_large(g, "references");
     if (!array_extend(m, &g->pool->refs, t->count))
-        return build_no_memory(g->build);
+        return accel_build_no_memory(g->build);
     memcpy(g->pool->refs.at + first, g->stack.at + t->begin, t->count * sizeof(uint32_t));
     *cell = (struct octree_cell){(uint32_t)first, t->count};
     g->pool->leaves++;
@@ -273,7 +273,7 @@ static bool leave_for_later(struct grower *g, const struct task *t, struct octre
     struct octree_pool *p = g->pool;
     const size_t number = p->later.count, first = p->later_ids.count;
     if (!array_extend(m, &p->later, 1) || !array_extend(m, &p->later_ids, t->count))
-        return build_no_memory(g->build);
+        return accel_build_no_memory(g->build);
     memcpy(p->later_ids.at + first, g->stack.at + t->begin, t->count * sizeof(uint32_t));
     p->later.at[number] = (struct octree_later){.box = t->box,
                                                 .count = t->count,
@@ -290,7 +290,7 @@ static bool push_children(struct grower *g, const struct task *t, const struct s
 {
     const size_t base = g->stack.count;
     if (!array_extend(&g->build->a->memory, &g->stack, (size_t)s->sum))
-        return build_no_memory(g->build);
+        return accel_build_no_memory(g->build);
     size_t next[8], at = base;
     for (int c = 0; c < 8; c++) {
         next[c] = at;
@@ -347,7 +347,7 @@ static bool make_node(struct grower *g, const struct split *s, struct octree_cel
     if (first + words > ACCEL_NONE)
         return too_large(g, "words of nodes");
     if (!array_extend(&g->build->a->memory, &p->words, words))
-        return build_no_memory(g->build);
+        return accel_build_no_memory(g->build);
     *cell = (struct octree_cell){(uint32_t)first, 0};
     struct octree_node *node = octree_node_at(p, cell->first);
     *node = (struct octree_node){{s->plane[0], s->plane[1], s->plane[2]}, mask, 0};
@@ -422,9 +422,9 @@ static bool prepare(struct grower *g, const uint32_t *ids, size_t count)
         for (int c = 0; c < 8; c++)
             g->one_each[halves] |= (uint64_t)(g->children_in[halves] >> c & 1) << (8 * c);
     }
-    g->children = memory_resize(m, NULL, 0, count);
+    g->children = accel_memory_resize(m, NULL, 0, count);
     if (!g->children || !array_extend(m, &g->stack, count))
-        return build_no_memory(g->build);
+        return accel_build_no_memory(g->build);
     memcpy(g->stack.at, ids, count * sizeof *ids);
     return true;
 }
@@ -454,15 +454,15 @@ static bool grow_all(struct grower *g, struct task *root, const uint32_t *ids,
     double cost;
     const bool fine = prepare(g, ids, root->count) && grow(g, root, cell, &cost);
     if (g->children)
-        memory_resize(m, g->children, root->count, 0);
+        accel_memory_resize(m, g->children, root->count, 0);
     array_free(m, &g->stack);
     info->depth = g->depth > info->depth ? g->depth : info->depth;
     return fine;
 }
 
-bool octree_build(struct build *build, struct octree_pool *pool, struct octree *tree,
-                  const uint32_t *ids, size_t count, const accel_box *box, struct octree_rule rule,
-                  double from, double to)
+bool accel_octree_build(struct build *build, struct octree_pool *pool, struct octree *tree,
+                        const uint32_t *ids, size_t count, const accel_box *box,
+                        struct octree_rule rule, double from, double to)
 {
     struct grower g = grower_of(build, pool, rule);
     struct task root = {
@@ -472,7 +472,7 @@ bool octree_build(struct build *build, struct octree_pool *pool, struct octree *
     tree->box = *box;
     const bool fine = grow_all(&g, &root, ids, &tree->root);
     if (g.refused && !isnan(rule.depth))
-        octree_note_refused(&build->a->info);
+        accel_octree_note_refused(&build->a->info);
     return fine;
 }
 
@@ -484,9 +484,9 @@ static uint32_t size_for_later(uint32_t count, uint32_t whole)
     return whole > count / SHARE_FOR_LATER ? whole : count / SHARE_FOR_LATER;
 }
 
-bool octree_grow_part(struct build *build, struct octree_pool *pool, struct octree_cell *root,
-                      const struct octree_lazy *lazy, const struct octree_later *part,
-                      const accel_box *tree, bool *refused)
+bool accel_octree_grow_part(struct build *build, struct octree_pool *pool, struct octree_cell *root,
+                            const struct octree_lazy *lazy, const struct octree_later *part,
+                            const accel_box *tree, bool *refused)
 {
     struct grower g = grower_of(build, pool, lazy->rule);
     struct task task = {.box = part->box,
@@ -502,8 +502,8 @@ bool octree_grow_part(struct build *build, struct octree_pool *pool, struct octr
     return fine;
 }
 
-struct octree_later octree_for_later(const uint32_t *ids, size_t count, const accel_box *box,
-                                     struct octree_rule rule)
+struct octree_later accel_octree_for_later(const uint32_t *ids, size_t count, const accel_box *box,
+                                           struct octree_rule rule)
 {
     return (struct octree_later){.box = *box,
                                  .ids = ids,
@@ -512,21 +512,22 @@ struct octree_later octree_for_later(const uint32_t *ids, size_t count, const ac
                                  .budget = budget_of(rule, count)};
 }
 
-void octree_note_refused(accel_info *info)
+void accel_octree_note_refused(accel_info *info)
 {
-    info_note(info,
-              "cells above the given depth were left whole: %d references for each primitive were "
-              "used up",
-              GIVEN_BUDGET);
+    accel_info_note(
+        info,
+        "cells above the given depth were left whole: %d references for each primitive were "
+        "used up",
+        GIVEN_BUDGET);
 }
 
-void octree_pool_trim(struct memory *m, struct octree_pool *pool)
+void accel_octree_pool_trim(struct memory *m, struct octree_pool *pool)
 {
     array_trim(m, &pool->words);
     array_trim(m, &pool->refs);
 }
 
-void octree_pool_free(struct memory *m, struct octree_pool *pool)
+void accel_octree_pool_free(struct memory *m, struct octree_pool *pool)
 {
     array_free(m, &pool->words);
     array_free(m, &pool->refs);

@@ -47,9 +47,9 @@ static struct octree_part *pack(struct memory *m, const struct octree_pool *pool
     const size_t bytes = sizeof(struct octree_part) + pool->words.count * sizeof *pool->words.at +
                          pool->later.count * sizeof *pool->later.at +
                          (pool->refs.count + pool->later_ids.count) * sizeof(uint32_t);
-    struct octree_part *part = memory_resize(m, NULL, 0, bytes);
+    struct octree_part *part = accel_memory_resize(m, NULL, 0, bytes);
     if (!part || (uintptr_t)part & OCTREE_MARK) { /* aligned worse than malloc does */
-        memory_resize(m, part, part ? bytes : 0, 0);
+        accel_memory_resize(m, part, part ? bytes : 0, 0);
         return NULL;
     }
     part->bytes = bytes;
@@ -69,9 +69,9 @@ make_part(const struct octree_lazy *lazy, const struct octree_later *later, cons
     struct octree_cell root;
     bool refused;
     struct octree_part *part = NULL;
-    if (octree_grow_part(&build, &pool, &root, lazy, later, tree, &refused))
+    if (accel_octree_grow_part(&build, &pool, &root, lazy, later, tree, &refused))
         part = pack(&own.memory, &pool);
-    octree_pool_free(&own.memory, &pool);
+    accel_octree_pool_free(&own.memory, &pool);
     if (part) {
         part->root = root;
         part->refused = refused;
@@ -83,7 +83,7 @@ make_part(const struct octree_lazy *lazy, const struct octree_later *later, cons
 static void free_part(const struct octree_lazy *lazy, struct octree_part *part)
 {
     struct memory m = account(lazy);
-    memory_resize(&m, part, part->bytes, 0);
+    accel_memory_resize(&m, part, part->bytes, 0);
 }
 
 /* The structure must not depend on the mode in which some ray is traced. */
@@ -128,8 +128,8 @@ static const struct octree_part *publish(const struct octree_lazy *lazy, struct 
     return part;
 }
 
-const struct octree_part *octree_build_part(const struct octree_lazy *lazy,
-                                            struct octree_later *later, const accel_box *tree)
+const struct octree_part *accel_octree_build_part(const struct octree_lazy *lazy,
+                                                  struct octree_later *later, const accel_box *tree)
 {
     if (!is_worth_a_try(later))
         return NULL;
@@ -140,7 +140,7 @@ const struct octree_part *octree_build_part(const struct octree_lazy *lazy,
     return NULL;
 }
 
-bool octree_part_is_sound(const struct octree_later *later, const struct octree_part **part)
+bool accel_octree_part_is_sound(const struct octree_later *later, const struct octree_part **part)
 {
     const uintptr_t check = atomic_load_explicit(&later->check, memory_order_acquire);
     const uintptr_t built = atomic_load_explicit(&later->built, memory_order_acquire);
@@ -149,7 +149,7 @@ bool octree_part_is_sound(const struct octree_later *later, const struct octree_
     return (!check || check == ~built) && built == (address | octree_mark(address));
 }
 
-bool octree_count(const struct octree_later *later, struct octree_census *census)
+bool accel_octree_count(const struct octree_later *later, struct octree_census *census)
 {
     const struct octree_part *part = octree_part_of(later);
     if (!part) {
@@ -164,16 +164,16 @@ bool octree_count(const struct octree_later *later, struct octree_census *census
     census->depth = part->depth > census->depth ? part->depth : census->depth;
     census->refused |= part->refused;
     for (size_t i = 0; i < pool->later.count; i++)
-        octree_count(&pool->later.at[i], census);
+        accel_octree_count(&pool->later.at[i], census);
     return true;
 }
 
-void octree_free_parts(const struct octree_lazy *lazy, struct octree_later *later)
+void accel_octree_free_parts(const struct octree_lazy *lazy, struct octree_later *later)
 {
     struct octree_part *part = octree_part_of(later);
     if (!part)
         return;
     for (size_t i = 0; i < part->pool.later.count; i++)
-        octree_free_parts(lazy, &part->pool.later.at[i]);
+        accel_octree_free_parts(lazy, &part->pool.later.at[i]);
     free_part(lazy, part);
 }

@@ -8,10 +8,10 @@
  * compare-and-swap with release order; of two that do so at the same time one throws its own away.
  * All that a walk pays is one load with acquire order for each part that it enters.
  *
- * Invariant: what is built is, cell by cell, what octree_build would have made: parts begin only
- * where no split above can be taken back, with what the builder had at hand there, and are built in
- * the environment of builds (environment.h). So neither the order of rays nor the number of
- * threads changes the structure or an answer.
+ * Invariant: what is built is, cell by cell, what accel_octree_build would have made: parts begin
+ * only where no split above can be taken back, with what the builder had at hand there, and are
+ * built in the environment of builds (environment.h). So neither the order of rays nor the number
+ * of threads changes the structure or an answer.
  *
  * Without memory for a part its ids are tested as a list, which answers the same (query.h); it is
  * tried again at the 1st, 2nd, 4th, 8th, ... entry after that.
@@ -62,7 +62,7 @@ static inline uintptr_t octree_mark(uintptr_t address)
 struct octree_part {
     size_t bytes;   /* of the block */
     uint32_t depth; /* of its deepest leaf, in the tree */
-    bool refused;   /* see octree_note_refused */
+    bool refused;   /* see accel_octree_note_refused */
     struct octree_pool pool;
     struct octree_cell root;
 };
@@ -76,17 +76,18 @@ struct octree_lazy {
 
 /* A whole tree, to be built later over ids[0 .. count - 1], count > 0, all inside `box`. The ids
  * must stay. */
-struct octree_later octree_for_later(const uint32_t *ids, size_t count, const accel_box *box,
-                                     struct octree_rule rule);
+struct octree_later accel_octree_for_later(const uint32_t *ids, size_t count, const accel_box *box,
+                                           struct octree_rule rule);
 
 /* Grows the cells of a part, which belongs to the tree in the box `tree`, into *pool and *root. */
-bool octree_grow_part(struct build *build, struct octree_pool *pool, struct octree_cell *root,
-                      const struct octree_lazy *lazy, const struct octree_later *part,
-                      const accel_box *tree, bool *refused);
+bool accel_octree_grow_part(struct build *build, struct octree_pool *pool, struct octree_cell *root,
+                            const struct octree_lazy *lazy, const struct octree_later *part,
+                            const accel_box *tree, bool *refused);
 
 /* Builds a part that is not there yet. NULL: there is no memory now, test its ids. */
-const struct octree_part *octree_build_part(const struct octree_lazy *lazy,
-                                            struct octree_later *later, const accel_box *tree);
+const struct octree_part *accel_octree_build_part(const struct octree_lazy *lazy,
+                                                  struct octree_later *later,
+                                                  const accel_box *tree);
 
 /* The part, or NULL if it is not built. */
 static inline struct octree_part *octree_part_of(const struct octree_later *later)
@@ -96,36 +97,37 @@ static inline struct octree_part *octree_part_of(const struct octree_later *late
 }
 
 /* The same for checks, also while it is built: false if what leads to the part was overwritten. */
-bool octree_part_is_sound(const struct octree_later *later, const struct octree_part **part);
+bool accel_octree_part_is_sound(const struct octree_later *later, const struct octree_part **part);
 
 /* The part, which is built if this is the first entry. NULL: test its ids. */
 static inline const struct octree_part *
 octree_enter(const struct octree_lazy *lazy, struct octree_later *later, const accel_box *tree)
 {
     const struct octree_part *part = octree_part_of(later);
-    return __builtin_expect(part != NULL, 1) ? part : octree_build_part(lazy, later, tree);
+    return __builtin_expect(part != NULL, 1) ? part : accel_octree_build_part(lazy, later, tree);
 }
 
 /* The walk of a lazy tree. */
-void octree_walk_lazy(const struct octree_lazy *lazy, struct octree_later *tree, struct query *q);
+void accel_octree_walk_lazy(const struct octree_lazy *lazy, struct octree_later *tree,
+                            struct query *q);
 
 /* What is built by now, and what is not. */
 struct octree_census {
     uint64_t nodes, leaves, references, bytes;
     uint64_t unbuilt; /* primitives of parts that no ray has entered, each counted once */
     uint32_t depth;   /* deepest leaf */
-    bool refused;     /* see octree_note_refused */
+    bool refused;     /* see accel_octree_note_refused */
 };
 
 /* Adds a part and the parts in it; is it built? While others query it may miss what they build. */
-bool octree_count(const struct octree_later *later, struct octree_census *census);
+bool accel_octree_count(const struct octree_later *later, struct octree_census *census);
 
-/* As octree_validate, for as much as is built. */
-bool octree_validate_lazy(const struct octree_lazy *lazy, const struct octree_later *tree,
-                          const uint32_t *ids, size_t count, accel_error *error);
+/* As accel_octree_validate, for as much as is built. */
+bool accel_octree_validate_lazy(const struct octree_lazy *lazy, const struct octree_later *tree,
+                                const uint32_t *ids, size_t count, accel_error *error);
 
 /* Frees what was built below. */
-void octree_free_parts(const struct octree_lazy *lazy, struct octree_later *later);
+void accel_octree_free_parts(const struct octree_lazy *lazy, struct octree_later *later);
 
 /* The default of the option `part`. On the dragon of 871,414 triangles, against an eager build: up
  * to the first 100 rays, build included, took 0.57 of the time with 512, 0.60 with 4,096, 0.67 with

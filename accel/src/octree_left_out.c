@@ -5,7 +5,7 @@
  */
 #include "octree.h"
 
-size_t octree_pool_bytes(const struct octree_pool *pool)
+size_t accel_octree_pool_bytes(const struct octree_pool *pool)
 {
     return pool->words.count * sizeof *pool->words.at + pool->refs.count * sizeof *pool->refs.at;
 }
@@ -19,7 +19,7 @@ static uint32_t possible_children(const struct octree_node *node)
     return children;
 }
 
-void octree_note_empty(struct build *build, const struct octree_pool *pool)
+void accel_octree_note_empty(struct build *build, const struct octree_pool *pool)
 {
     size_t empty = 0, stored = 0;
     for (size_t word = 0; word < pool->words.count;) {
@@ -30,12 +30,13 @@ void octree_note_empty(struct build *build, const struct octree_pool *pool)
         word += octree_words(children);
     }
     if (empty > 0)
-        build_left_out(build, empty * sizeof(struct octree_cell), octree_pool_bytes(pool),
-                       "%zu of %zu cells are empty: not stored", empty, empty + stored);
+        accel_build_left_out(build, empty * sizeof(struct octree_cell),
+                             accel_octree_pool_bytes(pool),
+                             "%zu of %zu cells are empty: not stored", empty, empty + stored);
 }
 
-void octree_note_lists(struct build *build, const struct octree_pool *pool,
-                       const struct octree *trees, size_t count)
+void accel_octree_note_lists(struct build *build, const struct octree_pool *pool,
+                             const struct octree *trees, size_t count)
 {
     size_t lists = 0, bytes = 0;
     for (size_t i = 0; i < count; i++) {
@@ -43,10 +44,10 @@ void octree_note_lists(struct build *build, const struct octree_pool *pool,
         lists += refs > 0;
         bytes += refs > 0 ? octree_words(refs < 8 ? refs : 8) * sizeof(uint64_t) : 0;
     }
-    const size_t made = octree_pool_bytes(pool);
+    const size_t made = accel_octree_pool_bytes(pool);
     if (lists > 0 && count == 1)
-        build_left_out(build, bytes, made, "few primitives: a list, no octree");
+        accel_build_left_out(build, bytes, made, "few primitives: a list, no octree");
     else if (lists > 0)
-        build_left_out(build, bytes, made, "%zu of %zu clusters are short: lists, no octrees",
-                       lists, count);
+        accel_build_left_out(build, bytes, made, "%zu of %zu clusters are short: lists, no octrees",
+                             lists, count);
 }

@@ -20,7 +20,7 @@ struct checker {
 
 static bool broken(const struct checker *c, const char *what, uint32_t number)
 {
-    error_set(c->error, ACCEL_BROKEN, "%s: %s %u", c->a->kind->info.name, what, number);
+    accel_error_set(c->error, ACCEL_BROKEN, "%s: %s %u", c->a->kind->info.name, what, number);
     return false;
 }
 
@@ -58,7 +58,7 @@ static bool check_child(const struct checker *c, const struct octree_node *node,
             *(child >> k & 1 ? &box.lo[k] : &box.hi[k]) = node->plane[k];
     }
     size_t kept;
-    uint32_t *list = primitives_meeting(&c->a->prims, ids, count, &box, &kept, c->error);
+    uint32_t *list = accel_primitives_meeting(&c->a->prims, ids, count, &box, &kept, c->error);
     if (!list)
         return false;
     const bool fine = node->mask >> child & 1
@@ -106,7 +106,7 @@ static bool check_runs(const struct checker *c)
 static bool check_part(const struct checker *c, const struct octree_later *later)
 {
     const struct octree_part *part;
-    if (!octree_part_is_sound(later, &part))
+    if (!accel_octree_part_is_sound(later, &part))
         return broken(c, "overwritten since it was built, what leads to a part at depth",
                       later->depth);
     if (!part)
@@ -164,18 +164,19 @@ static bool check_root(const struct checker *c, const accel_box *box, const uint
     return true;
 }
 
-bool octree_validate(const accel *a, const struct octree_pool *pool, const struct octree *tree,
-                     const uint32_t *ids, size_t count, accel_error *error)
+bool accel_octree_validate(const accel *a, const struct octree_pool *pool,
+                           const struct octree *tree, const uint32_t *ids, size_t count,
+                           accel_error *error)
 {
     const struct checker c = {a, pool, a->info.depth, 0.0, error};
     return check_root(&c, &tree->box, ids, count) &&
            check_cell(&c, &tree->root, &tree->box, ids, count, 0);
 }
 
-bool octree_validate_lazy(const struct octree_lazy *lazy, const struct octree_later *tree,
-                          const uint32_t *ids, size_t count, accel_error *error)
+bool accel_octree_validate_lazy(const struct octree_lazy *lazy, const struct octree_later *tree,
+                                const uint32_t *ids, size_t count, accel_error *error)
 {
-    const struct octree_later want = octree_for_later(ids, count, &tree->box, lazy->rule);
+    const struct octree_later want = accel_octree_for_later(ids, count, &tree->box, lazy->rule);
     const struct checker c = {.a = lazy->a, .error = error};
     if (tree->ids != want.ids || tree->count != want.count || tree->owned != want.owned ||
         tree->depth != want.depth || tree->failed != want.failed || tree->budget != want.budget)

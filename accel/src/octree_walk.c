@@ -106,7 +106,7 @@ static inline void enter(struct query *q, struct level *l, const struct octree_n
 static void test_leaf(const struct octree_pool *pool, struct query *q,
                       const struct octree_cell *cell)
 {
-    query_test_list(q, pool->refs.at + cell->first, cell->count);
+    accel_query_test_list(q, pool->refs.at + cell->first, cell->count);
 }
 
 /* What a walk of a lazy tree must know; NULL stands for an eager one. */
@@ -123,7 +123,7 @@ static inline bool enter_part(const struct growing *growing, struct query *q,
 {
     const struct octree_part *part = octree_enter(growing->lazy, later, growing->tree);
     if (!part) {
-        query_test_list(q, later->ids, later->count);
+        accel_query_test_list(q, later->ids, later->count);
         return false;
     }
     *cell = &part->root;
@@ -232,7 +232,7 @@ __attribute__((always_inline)) static inline void walk_lazy_as(const struct octr
         walk_nodes(pool, &growing, q, root->first, near, far, common);
 }
 
-void octree_walk(const struct octree_pool *pool, const struct octree *tree, struct query *q)
+void accel_octree_walk(const struct octree_pool *pool, const struct octree *tree, struct query *q)
 {
     if (query_common(q))
         walk_as(pool, tree, q, true);
@@ -240,7 +240,8 @@ void octree_walk(const struct octree_pool *pool, const struct octree *tree, stru
         walk_as(pool, tree, q, false);
 }
 
-void octree_walk_lazy(const struct octree_lazy *lazy, struct octree_later *tree, struct query *q)
+void accel_octree_walk_lazy(const struct octree_lazy *lazy, struct octree_later *tree,
+                            struct query *q)
 {
     if (query_common(q))
         walk_lazy_as(lazy, tree, q, true);

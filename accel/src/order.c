@@ -26,11 +26,11 @@ static bool pass(const struct keyed *from, struct keyed *to, size_t count, int s
     return true;
 }
 
-bool order_by_key(struct memory *m, struct keyed *at, size_t count)
+bool accel_order_by_key(struct memory *m, struct keyed *at, size_t count)
 {
     if (count < 2)
         return true;
-    struct keyed *other = memory_resize(m, NULL, 0, count * sizeof *other);
+    struct keyed *other = accel_memory_resize(m, NULL, 0, count * sizeof *other);
     if (!other)
         return false;
     struct keyed *from = at, *to = other;
@@ -43,7 +43,7 @@ bool order_by_key(struct memory *m, struct keyed *at, size_t count)
     }
     for (size_t i = 0; from != at && i < count; i++)
         at[i] = from[i];
-    memory_resize(m, other, count * sizeof *other, 0);
+    accel_memory_resize(m, other, count * sizeof *other, 0);
     return true;
 }
 
@@ -57,7 +57,7 @@ static uint64_t spread(uint64_t x)
     return (x | x << 2) & 0x1249249249249249;
 }
 
-uint64_t order_morton(const accel_box *unit)
+uint64_t accel_order_morton(const accel_box *unit)
 {
     uint64_t code = 0;
     for (int k = 0; k < 3; k++)

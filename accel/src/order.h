@@ -14,10 +14,10 @@ struct keyed {
 };
 
 /* Sorts by key; what has equal keys keeps its order. False: no memory, nothing changed. */
-bool order_by_key(struct memory *m, struct keyed *at, size_t count);
+bool accel_order_by_key(struct memory *m, struct keyed *at, size_t count);
 
 /* The place of a box's middle on the Morton curve, 19 bits for each axis: below 2^57. The box is
  * in units of a frame (frame.h). */
-uint64_t order_morton(const accel_box *unit);
+uint64_t accel_order_morton(const accel_box *unit);
 
 #endif

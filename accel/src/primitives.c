@@ -131,16 +131,16 @@ static bool check(struct build *build, const accel_scene *scene)
     for (uint32_t g = 0; g < scene->count; g++) {
         const char *wrong = complaint(&scene->geometries[g]);
         if (wrong) {
-            error_set(build->error, ACCEL_BAD_ARGUMENT, "geometry %u: %s; nothing was built", g,
-                      wrong);
+            accel_error_set(build->error, ACCEL_BAD_ARGUMENT, "geometry %u: %s; nothing was built",
+                            g, wrong);
             return false;
         }
         total += geometry_size(&scene->geometries[g]);
     }
     if (total >= too_many) {
-        error_set(build->error, ACCEL_TOO_LARGE,
-                  "scene: %llu primitives, at most %llu are allowed; nothing was built",
-                  (unsigned long long)total, (unsigned long long)too_many - 1);
+        accel_error_set(build->error, ACCEL_TOO_LARGE,
+                        "scene: %llu primitives, at most %llu are allowed; nothing was built",
+                        (unsigned long long)total, (unsigned long long)too_many - 1);
         return false;
     }
     return true;
@@ -151,7 +151,7 @@ static bool check_indices(struct build *build, uint32_t number, const accel_tria
     for (size_t i = 0; i < 3 * (size_t)t->count; i++) {
         if (t->indices[i] < t->vertex_count)
             continue;
-        error_set(
+        accel_error_set(
             build->error, ACCEL_BAD_ARGUMENT,
             "geometry %u, triangle %zu: vertex %u is used, but there are %u; nothing was built",
             number, i / 3, t->indices[i], t->vertex_count);
@@ -163,9 +163,9 @@ static bool check_indices(struct build *build, uint32_t number, const accel_tria
 static void *allocate(struct build *build, size_t count, size_t size)
 {
     struct memory *m = &build->a->memory;
-    void *block = memory_resize(m, NULL, 0, count * size);
+    void *block = accel_memory_resize(m, NULL, 0, count * size);
     if (!block)
-        build_no_memory(build);
+        accel_build_no_memory(build);
     return block;
 }
 
@@ -226,7 +226,7 @@ static enum sort copy_primitive(const accel_geometry *from, struct geometry *g, 
 static bool append(struct build *build, struct ids *list, uint32_t id)
 {
     if (!array_extend(&build->a->memory, list, 1))
-        return build_no_memory(build);
+        return accel_build_no_memory(build);
     list->at[list->count - 1] = id;
     return true;
 }
@@ -284,7 +284,7 @@ static bool copy_geometry(struct build *build, const accel_geometry *from, uint3
         if (!enter(build, id, sort))
             return false;
         p->box_seal += seal_primitive(id, &p->box[id], PRIMITIVES_BOX_WORDS);
-        if (i % 4096 == 0 && !build_tick(build, (double)id / p->count))
+        if (i % 4096 == 0 && !accel_build_tick(build, (double)id / p->count))
             return false;
     }
     return true;
@@ -329,16 +329,16 @@ static void describe(struct build *build)
 {
     const struct primitives *p = &build->a->prims;
     if (!p->geometry_of)
-        build_left_out(build, p->count * sizeof *p->geometry_of, build->a->memory.bytes,
-                       "one geometry: no table of each primitive's geometry");
+        accel_build_left_out(build, p->count * sizeof *p->geometry_of, build->a->memory.bytes,
+                             "one geometry: no table of each primitive's geometry");
     if (p->only_triangles)
-        build_left_out(
+        accel_build_left_out(
             build, 0, 0,
             "only triangles: no callback path; leaves are tested two by two (saves rays' "
             "time only)");
 }
 
-bool primitives_copy(struct build *build, const accel_scene *scene)
+bool accel_primitives_copy(struct build *build, const accel_scene *scene)
 {
     struct primitives *p = &build->a->prims;
     if (!check(build, scene))
@@ -363,7 +363,7 @@ bool primitives_copy(struct build *build, const accel_scene *scene)
     if (total == 0)
         return true;
     if (!array_reserve(&build->a->memory, &p->bounded, total))
-        return build_no_memory(build);
+        return accel_build_no_memory(build);
     for (uint32_t g = 0; g < scene->count; g++)
         if (!copy_geometry(build, &scene->geometries[g], g))
             return false;
@@ -376,32 +376,32 @@ bool primitives_copy(struct build *build, const accel_scene *scene)
 static void free_data(struct memory *m, struct geometry *g)
 {
     if (g->data)
-        memory_resize(m, g->data, data_doubles(g) * sizeof(double), 0);
+        accel_memory_resize(m, g->data, data_doubles(g) * sizeof(double), 0);
     g->data = NULL;
 }
 
-void primitives_leave(struct memory *m, struct primitives *p)
+void accel_primitives_leave(struct memory *m, struct primitives *p)
 {
     for (uint32_t g = 0; g < p->geometry_count; g++)
         free_data(m, &p->geometry[g]);
-    memory_resize(m, p->box, p->count * sizeof *p->box, 0);
-    memory_resize(m, p->bounded.at, p->bounded.room * sizeof *p->bounded.at, 0);
+    accel_memory_resize(m, p->box, p->count * sizeof *p->box, 0);
+    accel_memory_resize(m, p->bounded.at, p->bounded.room * sizeof *p->bounded.at, 0);
     p->left = true;
     p->box = NULL;
     p->bounded.at = NULL;
     p->bounded.room = 0;
 }
 
-void primitives_free(struct memory *m, struct primitives *p)
+void accel_primitives_free(struct memory *m, struct primitives *p)
 {
     for (uint32_t g = 0; g < p->geometry_count; g++)
         free_data(m, &p->geometry[g]);
     if (p->geometry)
-        memory_resize(m, p->geometry, p->geometry_count * sizeof *p->geometry, 0);
+        accel_memory_resize(m, p->geometry, p->geometry_count * sizeof *p->geometry, 0);
     if (p->box)
-        memory_resize(m, p->box, p->count * sizeof *p->box, 0);
+        accel_memory_resize(m, p->box, p->count * sizeof *p->box, 0);
     if (p->geometry_of)
-        memory_resize(m, p->geometry_of, p->count * sizeof *p->geometry_of, 0);
+        accel_memory_resize(m, p->geometry_of, p->count * sizeof *p->geometry_of, 0);
     array_free(m, &p->bounded);
     array_free(m, &p->unbounded);
 }

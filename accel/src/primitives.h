@@ -38,14 +38,14 @@ struct primitives {
     uint32_t geometry_count;   /* of the scene */
     uint32_t *geometry_of;     /* by id; NULL if there is but one geometry */
     accel_box *box;            /* P' by id; empty (lo > hi) if skipped, endless if unbounded; NULL
-                                  if the kind makes them again: see primitives_leave */
+                                  if the kind makes them again: see accel_primitives_leave */
     uint32_t count;            /* ids */
     struct ids bounded;        /* what structures are built over, rising */
     struct ids unbounded;      /* objects with an infinite side, rising */
     accel_box bounds;          /* around the padded boxes of all that is bounded */
     bool only_triangles;       /* no spheres, no objects */
     bool by_key;               /* no objects whose hits are ordered as reported */
-    bool left;                 /* the kind alone has the triangles: see primitives_leave */
+    bool left;                 /* the kind alone has the triangles: see accel_primitives_leave */
     uint64_t box_seal;         /* over all boxes: see seal.h */
     uint64_t data_seal;        /* over the triangles and spheres that are bounded */
     uint64_t geometry_seal;    /* over the geometries, once all is built */
@@ -53,25 +53,25 @@ struct primitives {
 };
 
 /* Copies and checks the scene, filling the counts in build->a->info. False: see build->error. */
-bool primitives_copy(struct build *build, const accel_scene *scene);
+bool accel_primitives_copy(struct build *build, const accel_scene *scene);
 
 /* Where there are only bounded triangles, and the kind keeps their vertices: frees vertices, boxes
  * and the list of ids (not its count), for good. */
-void primitives_leave(struct memory *m, struct primitives *p);
+void accel_primitives_leave(struct memory *m, struct primitives *p);
 
 /* Notes the geometries as they now are. */
-void primitives_seal(struct primitives *p);
+void accel_primitives_seal(struct primitives *p);
 
 /* Is all as it was built, and does every list hold what it should? All ids and indices are in range
  * then. False: *error says what is not. */
-bool primitives_validate(const struct primitives *p, accel_error *error);
+bool accel_primitives_validate(const struct primitives *p, accel_error *error);
 
 /* Those of the ids whose boxes meet a cell, *kept of them in a new array that the caller free()s:
  * for checks. NULL: no memory, and *error says so. */
-uint32_t *primitives_meeting(const struct primitives *p, const uint32_t *ids, size_t count,
-                             const accel_box *cell, size_t *kept, accel_error *error);
+uint32_t *accel_primitives_meeting(const struct primitives *p, const uint32_t *ids, size_t count,
+                                   const accel_box *cell, size_t *kept, accel_error *error);
 
-void primitives_free(struct memory *m, struct primitives *p);
+void accel_primitives_free(struct memory *m, struct primitives *p);
 
 /* Doubles of each of a geometry's primitives. */
 static inline size_t primitives_words(const struct geometry *g)

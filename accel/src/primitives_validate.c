@@ -13,7 +13,7 @@
 
 static bool broken(accel_error *error, const char *what, size_t number)
 {
-    error_set(error, ACCEL_BROKEN, "scene: %s %zu", what, number);
+    accel_error_set(error, ACCEL_BROKEN, "scene: %s %zu", what, number);
     return false;
 }
 
@@ -22,7 +22,7 @@ static uint64_t geometry_seal(const struct primitives *p)
     return seal_bytes(p->geometry, p->geometry_count * sizeof *p->geometry);
 }
 
-void primitives_seal(struct primitives *p)
+void accel_primitives_seal(struct primitives *p)
 {
     p->geometry_seal = geometry_seal(p);
 }
@@ -82,18 +82,18 @@ static bool check_data(const struct primitives *p, accel_error *error)
            broken(error, "overwritten since they were built, triangles or spheres,", p->count);
 }
 
-bool primitives_validate(const struct primitives *p, accel_error *error)
+bool accel_primitives_validate(const struct primitives *p, accel_error *error)
 {
     return check_geometries(p, error) &&
            (p->left || (check_boxes(p, error) && check_lists(p, error) && check_data(p, error)));
 }
 
-uint32_t *primitives_meeting(const struct primitives *p, const uint32_t *ids, size_t count,
-                             const accel_box *cell, size_t *kept, accel_error *error)
+uint32_t *accel_primitives_meeting(const struct primitives *p, const uint32_t *ids, size_t count,
+                                   const accel_box *cell, size_t *kept, accel_error *error)
 {
     uint32_t *list = malloc((count ? count : 1) * sizeof *list);
     if (!list) {
-        error_set(error, ACCEL_NO_MEMORY, "validate: no memory for %zu ids", count);
+        accel_error_set(error, ACCEL_NO_MEMORY, "validate: no memory for %zu ids", count);
         return NULL;
     }
     *kept = 0;

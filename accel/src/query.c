@@ -92,8 +92,8 @@ static struct interval own_interval(const struct query *q, const accel_box *padd
 }
 
 /* A native hit: t is clamped into S(P'), and a hit whose S(P') is empty is none. */
-void query_offer(struct query *q, const accel_box *padded, uint32_t id, double t, double u,
-                 double v)
+void accel_query_offer(struct query *q, const accel_box *padded, uint32_t id, double t, double u,
+                       double v)
 {
     const struct interval s = own_interval(q, padded);
     if (!(s.a <= s.z) || isnan(t))
@@ -103,7 +103,7 @@ void query_offer(struct query *q, const accel_box *padded, uint32_t id, double t
         keep(q, &(struct found){key, key, u, v, id});
 }
 
-void query_offer_point(struct query *q, const accel_box *padded, uint32_t id)
+void accel_query_offer_point(struct query *q, const accel_box *padded, uint32_t id)
 {
     const struct interval s = own_interval(q, padded);
     if (s.a <= s.z)
@@ -112,20 +112,20 @@ void query_offer_point(struct query *q, const accel_box *padded, uint32_t id)
 
 static void offer(struct query *q, uint32_t id, double t, double u, double v)
 {
-    query_offer(q, &q->prims->box[id], id, t, u, v);
+    accel_query_offer(q, &q->prims->box[id], id, t, u, v);
 }
 
 static void test_triangle(struct query *q, const struct geometry *g, uint32_t id)
 {
     double t, u, v;
-    if (triangle_hit(q, g->data + 9 * (size_t)(id - g->first), &t, &u, &v))
+    if (accel_triangle_hit(q, g->data + 9 * (size_t)(id - g->first), &t, &u, &v))
         offer(q, id, t, u, v);
 }
 
 static void test_sphere(struct query *q, const struct geometry *g, uint32_t id)
 {
     double t[2];
-    const int roots = sphere_hits(q, g->data + 4 * (size_t)(id - g->first), id == q->skip, t);
+    const int roots = accel_sphere_hits(q, g->data + 4 * (size_t)(id - g->first), id == q->skip, t);
     for (int i = 0; i < roots; i++)
         offer(q, id, t[i], 0.0, 0.0);
 }
@@ -138,7 +138,11 @@ static void test_object(struct query *q, const struct geometry *g, uint32_t id, 
         return;
     const double limit = g->order == ACCEL_ORDER_RAW && q->limit < q->tmax ? q->limit : q->tmax;
     struct probing probing = {
-        {q->ray, g->user, q->caller, id - g->first, id == q->skip, limit, NULL}, q, s, g->order, id};
+        {q->ray, g->user, q->caller, id - g->first, id == q->skip, limit, NULL},
+        q,
+        s,
+        g->order,
+        id};
     probing.probe.library = &probing;
     g->intersect(&probing.probe);
 }
@@ -165,7 +169,7 @@ static void test(struct query *q, uint32_t id, bool prune)
         return;
     q->tests++;
     if (q->point) {
-        query_offer_point(q, &q->prims->box[id], id);
+        accel_query_offer_point(q, &q->prims->box[id], id);
     } else if (g->type == ACCEL_TRIANGLES) {
         test_triangle(q, g, id);
     } else if (g->type == ACCEL_SPHERES) {
@@ -179,7 +183,7 @@ static void test(struct query *q, uint32_t id, bool prune)
 static void test_survivor(struct query *q, uint32_t id, const double *vertices)
 {
     double t, u, v;
-    if (id != q->skip && triangle_hit(q, vertices, &t, &u, &v))
+    if (id != q->skip && accel_triangle_hit(q, vertices, &t, &u, &v))
         offer(q, id, t, u, v);
 }
 
@@ -191,7 +195,7 @@ static void test_pile(struct query *q, const uint32_t *ids, size_t count, bool p
             test(q, ids[i], prune);
 }
 
-void query_test_all(struct query *q, const uint32_t *ids, size_t count)
+void accel_query_test_all(struct query *q, const uint32_t *ids, size_t count)
 {
     if (q->pile) {
         test_pile(q, ids, count, false);
@@ -239,7 +243,7 @@ static void test_triangles(struct query *q, const uint32_t *ids, size_t count)
         test_survivor(q, id[0], vertices[0]);
 }
 
-void query_test_list(struct query *q, const uint32_t *ids, size_t count)
+void accel_query_test_list(struct query *q, const uint32_t *ids, size_t count)
 {
     if (q->pile) {
         test_pile(q, ids, count, true);

@@ -2,10 +2,10 @@
  *
  * One query under way, and the rule that makes every kind give the same answer.
  *
- * A walk is a stream of candidates: a kind calls query_test_list for every primitive that could
- * win, in any order, as often as it likes. The query keeps the `room` first hits by (key, id): one
- * for a closest or any query, a batch for an all query. So closest, any, all and point queries are
- * one walk.
+ * A walk is a stream of candidates: a kind calls accel_query_test_list for every primitive that
+ * could win, in any order, as often as it likes. The query keeps the `room` first hits by (key,
+ * id): one for a closest or any query, a batch for an all query. So closest, any, all and point
+ * queries are one walk.
  *
  * The interval S of a box (query_box) is the part of the ray inside it, grown by 2^-50 on both
  * ends. Every step of it is monotone under any one rounding mode, so a larger box has a larger
@@ -179,7 +179,7 @@ static inline double query_cap(const struct query *q)
 }
 
 /* What the tests of primitives need to know of a ray, for a query that keeps its hits itself. */
-void query_prepare(struct query *q, const accel *a, const accel_ray *ray);
+void accel_query_prepare(struct query *q, const accel *a, const accel_ray *ray);
 
 /* Does the id alone say that a primitive is not among the next of a pile? */
 static inline bool query_may_matter(const struct query *q, uint32_t id)
@@ -195,15 +195,15 @@ static inline bool query_done(const struct query *q)
 
 /* Tests a leaf's primitives and keeps those hits that are among the first. Leaves out what was
  * tested lately, and objects whose box begins after the limit. */
-void query_test_list(struct query *q, const uint32_t *ids, size_t count);
+void accel_query_test_list(struct query *q, const uint32_t *ids, size_t count);
 
 /* For kinds that keep the data of primitives themselves: a hit of a triangle or sphere, and a box
  * that a point query may be in. padded: P'. */
-void query_offer(struct query *q, const accel_box *padded, uint32_t id, double t, double u,
-                 double v);
-void query_offer_point(struct query *q, const accel_box *padded, uint32_t id);
+void accel_query_offer(struct query *q, const accel_box *padded, uint32_t id, double t, double u,
+                       double v);
+void accel_query_offer_point(struct query *q, const accel_box *padded, uint32_t id);
 
 /* Tests every one: what linear does. */
-void query_test_all(struct query *q, const uint32_t *ids, size_t count);
+void accel_query_test_all(struct query *q, const uint32_t *ids, size_t count);
 
 #endif

@@ -130,7 +130,7 @@ static int roots_scaled(const double f[3], const double dir[3], double r, bool f
     return count;
 }
 
-int sphere_hits(const struct query *q, const double *sphere, bool leaves, double t[2])
+int accel_sphere_hits(const struct query *q, const double *sphere, bool leaves, double t[2])
 {
     double f[3];
     for (int k = 0; k < 3; k++)

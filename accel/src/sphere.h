@@ -13,7 +13,7 @@
 /* Tests the sphere (centre, radius). Returns the number of roots, 0 or 2, the lower first; a line
  * that touches has two equal ones. Of a ray that leaves this sphere, 0 or 1: the one farther from
  * 0; see sphere.c. */
-int sphere_hits(const struct query *q, const double *sphere, bool leaves, double t[2]);
+int accel_sphere_hits(const struct query *q, const double *sphere, bool leaves, double t[2]);
 
 /* The same for a ray that leaves this sphere: only the root that is farther from 0, where there are
  * any. It is positive where the ray goes inward, and below 0 or 0 where it does not: see sphere.c.

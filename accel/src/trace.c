@@ -62,7 +62,7 @@ static void prepare(struct query *q, const accel *a, const accel_ray *ray, accel
     prepare_slabs(q);
 }
 
-void query_prepare(struct query *q, const accel *a, const accel_ray *ray)
+void accel_query_prepare(struct query *q, const accel *a, const accel_ray *ray)
 {
     prepare(q, a, ray, NULL);
     prepare_shear(q);
@@ -83,7 +83,7 @@ static void walk(struct query *q, const accel *a)
     q->limit = q->pile ? q->last.key : q->point ? 0.0 : (double)INFINITY;
     q->end = ACCEL_NONE;
     memset(q->mailbox, 0xff, sizeof q->mailbox);
-    query_test_all(q, a->prims.unbounded.at, a->prims.unbounded.count);
+    accel_query_test_all(q, a->prims.unbounded.at, a->prims.unbounded.count);
     if (a->prims.bounded.count > 0 && !query_done(q))
         a->kind->walk(a, q);
 }

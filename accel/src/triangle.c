@@ -97,7 +97,8 @@ static bool safe(double x)
     return fabs(x) > SAFE_MIN && fabs(x) < SAFE_MAX;
 }
 
-bool triangle_hit(const struct query *q, const double *vertices, double *t, double *u, double *v)
+bool accel_triangle_hit(const struct query *q, const double *vertices, double *t, double *u,
+                        double *v)
 {
     const struct sheared s = shear(q, vertices);
     const double e0 = s.x[2] * s.y[1] - s.y[2] * s.x[1];

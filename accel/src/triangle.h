@@ -20,11 +20,12 @@
 
 /* Tests the triangle of three vertices (9 doubles). Returns true if the ray's line hits it, with
  * t and the weights u, v of the second and third vertex. */
-bool triangle_hit(const struct query *q, const double *vertices, double *t, double *u, double *v);
+bool accel_triangle_hit(const struct query *q, const double *vertices, double *t, double *u,
+                        double *v);
 
-/* Two triangles at once. Bit i of the result is 0 only if triangle_hit is false for the i-th: the
- * same edge functions in the same order of operations have both signs. Where one is NaN the sign
- * found is still that of another. */
+/* Two triangles at once. Bit i of the result is 0 only if accel_triangle_hit is false for the i-th:
+ * the same edge functions in the same order of operations have both signs. Where one is NaN the
+ * sign found is still that of another. */
 static inline uint32_t triangle_pair_may_hit(const struct query *q, const double *first,
                                              const double *second)
 {

@@ -17,11 +17,11 @@
 
 enum { RAYS = 24000 };
 
-static accel_answers expected, got;
+static struct answers expected, got;
 
 static const accel_hit some_hit = {1.5, 0.25, 0.5, 3, 7};
 
-static void fill(accel_answers *answers)
+static void fill(struct answers *answers)
 {
     memset(answers, 0, sizeof *answers);
     answers->found = true;
@@ -39,8 +39,8 @@ static void fill(accel_answers *answers)
 
 static unsigned differences(bool lists)
 {
-    const accel_question question = {.lists = lists};
-    return accel_differences(&question, &expected, &got);
+    const struct question question = {.lists = lists};
+    return count_differences(&question, &expected, &got);
 }
 
 static void equal_answers_agree(void **state)
@@ -70,11 +70,11 @@ static void each_bit_of_a_hit_is_seen(void **state)
     (void)state;
     fill(&expected);
     fill(&got);
-    each_bit_is_seen(&got.closest, sizeof got.closest, ACCEL_DIFFERS_CLOSEST);
-    each_bit_is_seen(&got.all[1], sizeof got.all[1], ACCEL_DIFFERS_ALL);
-    each_bit_is_seen(&got.all_count, 1, ACCEL_DIFFERS_ALL);
-    each_bit_is_seen(&got.point[1], sizeof got.point[1], ACCEL_DIFFERS_POINT);
-    each_bit_is_seen(&got.point_count, 1, ACCEL_DIFFERS_POINT);
+    each_bit_is_seen(&got.closest, sizeof got.closest, DIFFERS_CLOSEST);
+    each_bit_is_seen(&got.all[1], sizeof got.all[1], DIFFERS_ALL);
+    each_bit_is_seen(&got.all_count, 1, DIFFERS_ALL);
+    each_bit_is_seen(&got.point[1], sizeof got.point[1], DIFFERS_POINT);
+    each_bit_is_seen(&got.point_count, 1, DIFFERS_POINT);
     assert_int_equal(differences(true), 0);
 }
 
@@ -84,13 +84,13 @@ static void found_and_any_are_seen(void **state)
     fill(&expected);
     fill(&got);
     got.any = false;
-    assert_int_equal(differences(false), ACCEL_DIFFERS_ANY);
+    assert_int_equal(differences(false), DIFFERS_ANY);
     got.found = false;
-    assert_int_equal(differences(false), ACCEL_DIFFERS_CLOSEST | ACCEL_DIFFERS_ANY);
+    assert_int_equal(differences(false), DIFFERS_CLOSEST | DIFFERS_ANY);
     expected.found = false;
     assert_int_equal(differences(false), 0);
     got.untouched = false;
-    assert_int_equal(differences(false), ACCEL_DIFFERS_CLOSEST);
+    assert_int_equal(differences(false), DIFFERS_CLOSEST);
 }
 
 static void lists_count_only_where_they_were_asked_for(void **state)
@@ -101,10 +101,10 @@ static void lists_count_only_where_they_were_asked_for(void **state)
     got.all_count = 1;
     got.point[0].prim++;
     assert_int_equal(differences(false), 0);
-    assert_int_equal(differences(true), ACCEL_DIFFERS_ALL | ACCEL_DIFFERS_POINT);
+    assert_int_equal(differences(true), DIFFERS_ALL | DIFFERS_POINT);
 }
 
-static accel *build(const accel_loaded *loaded, const char *config)
+static accel *build(const struct loaded *loaded, const char *config)
 {
     accel *a;
     accel_error error;
@@ -112,105 +112,105 @@ static accel *build(const accel_loaded *loaded, const char *config)
     return a;
 }
 
-static void load(accel_loaded *loaded, const char *name)
+static void load(struct loaded *loaded, const char *name)
 {
     accel_error error;
-    assert_true(accel_load_scene(loaded, name, NULL, NULL, &error));
+    assert_true(load_scene(loaded, name, NULL, NULL, &error));
 }
 
 /* Runs a check of `config` over `scene` with linear over `judged_scene`. */
-static void run_check(accel_check *check, const char *scene, const char *config,
-                      const accel_loaded *judged_scene, uint64_t judged)
+static void run_check(struct check *check, const char *scene, const char *config,
+                      const struct loaded *judged_scene, uint64_t judged)
 {
     memset(check, 0, sizeof *check);
     load(&check->loaded, scene);
     check->scene_name = scene;
     check->judge = build(judged_scene, "linear");
     check->suspects[0] =
-        (accel_suspect){.structure = build(&check->loaded, config), .first = UINT64_MAX};
+        (struct suspect){.structure = build(&check->loaded, config), .first = UINT64_MAX};
     accel_describe(check->suspects[0].structure, &check->suspects[0].info);
     check->suspect_count = 1;
-    check->rays = accel_rays_start(&check->loaded.scene, 1);
+    check->rays = rays_start(&check->loaded.scene, 1);
     check->ray_count = RAYS;
     check->judged_count = judged;
     check->threads = 2;
-    assert_true(accel_check_run(check));
+    assert_true(check_run(check));
 }
 
-static void end_check(accel_check *check)
+static void end_check(struct check *check)
 {
     accel_free(check->suspects[0].structure);
     accel_free(check->judge);
-    accel_unload_scene(&check->loaded);
+    unload_scene(&check->loaded);
 }
 
-static accel_check check;
+static struct check check;
 
 static void equal_scenes_have_no_mismatch(void **state)
 {
     (void)state;
-    accel_loaded same;
+    struct loaded same;
     load(&same, "cubes:gap=1");
     run_check(&check, "cubes:gap=1", "auto", &same, RAYS);
     assert_int_equal(check.suspects[0].mismatches, 0);
     assert_true(check.suspects[0].first == UINT64_MAX);
     assert_true(check.suspects[0].hits > RAYS / 3);
     assert_true(check.suspects[0].refused > 0);
-    assert_int_equal(accel_check_report(&check), ACCEL_EXIT_FINE);
+    assert_int_equal(check_report(&check), EXIT_FINE);
     end_check(&check);
-    accel_unload_scene(&same);
+    unload_scene(&same);
 }
 
 /* The first mismatch must replay: as text and back, against the same judge. */
 static void expect_mismatch(uint64_t most)
 {
-    const accel_suspect *suspect = &check.suspects[0];
+    const struct suspect *suspect = &check.suspects[0];
     assert_true(suspect->mismatches > 0 && suspect->mismatches <= most);
-    const accel_ray ray = accel_rays_make(&check.rays, suspect->first);
-    char text[ACCEL_RAY_TEXT];
+    const accel_ray ray = rays_make(&check.rays, suspect->first);
+    char text[RAY_TEXT];
     accel_ray again;
-    accel_write_ray(&ray, text);
-    assert_true(accel_read_ray(text, &again));
+    write_ray(&ray, text);
+    assert_true(ray_from_text(text, &again));
     assert_memory_equal(&ray, &again, sizeof ray);
-    assert_int_equal(accel_check_replay(&check, &again), ACCEL_EXIT_DIFFERENT);
-    assert_int_equal(accel_check_report(&check), ACCEL_EXIT_DIFFERENT);
+    assert_int_equal(check_replay(&check, &again), EXIT_DIFFERENT);
+    assert_int_equal(check_report(&check), EXIT_DIFFERENT);
     end_check(&check);
 }
 
 static void one_ulp_of_one_vertex_is_seen(void **state)
 {
     (void)state;
-    accel_loaded moved;
+    struct loaded moved;
     load(&moved, "teapots");
     double *vertex = (double *)moved.geometries[9].triangles.vertices + 3 * 20;
     vertex[1] = nextafter(vertex[1], 1.0);
     run_check(&check, "teapots", "auto", &moved, RAYS);
     expect_mismatch(RAYS / 10);
-    accel_unload_scene(&moved);
+    unload_scene(&moved);
 }
 
 static void one_missing_triangle_is_seen(void **state)
 {
     (void)state;
-    accel_loaded fewer;
+    struct loaded fewer;
     load(&fewer, "cubes:gap=1");
     fewer.geometries[0].triangles.count--;
     run_check(&check, "cubes:gap=1", "auto", &fewer, RAYS);
     expect_mismatch(RAYS / 10);
-    accel_unload_scene(&fewer);
+    unload_scene(&fewer);
 }
 
 static void another_order_of_ties_is_seen(void **state)
 {
     (void)state;
-    accel_loaded swapped;
+    struct loaded swapped;
     load(&swapped, "same:n=2");
     uint32_t *indices = (uint32_t *)swapped.geometries[0].triangles.indices;
     /* the judge finds no first triangle, so that the second one wins */
     indices[1] = indices[0];
     run_check(&check, "same:n=2", "auto", &swapped, RAYS);
     expect_mismatch(RAYS);
-    accel_unload_scene(&swapped);
+    unload_scene(&swapped);
 }
 
 static void a_sample_is_even_in_each_family(void **state)
@@ -218,14 +218,14 @@ static void a_sample_is_even_in_each_family(void **state)
     (void)state;
     check.ray_count = 12007;
     check.judged_count = 1201;
-    uint64_t judged[ACCEL_FAMILIES] = {0}, all = 0;
+    uint64_t judged[FAMILIES] = {0}, all = 0;
     for (uint64_t i = 0; i < check.ray_count; i++) {
-        const bool here = accel_check_judged(&check, i);
-        judged[i % ACCEL_FAMILIES] += here;
+        const bool here = check_judged(&check, i);
+        judged[i % FAMILIES] += here;
         all += here;
     }
     assert_int_equal(all, 1201);
-    for (int family = 0; family < ACCEL_FAMILIES; family++) {
+    for (int family = 0; family < FAMILIES; family++) {
         assert_in_range(judged[family], 100, 101);
     }
 }
@@ -233,21 +233,21 @@ static void a_sample_is_even_in_each_family(void **state)
 static void rays_are_the_same_in_any_order(void **state)
 {
     (void)state;
-    accel_loaded loaded;
+    struct loaded loaded;
     load(&loaded, "teapots");
-    const accel_rays rays = accel_rays_start(&loaded.scene, 42);
-    const accel_rays other = accel_rays_start(&loaded.scene, 43);
+    const struct rays rays = rays_start(&loaded.scene, 42);
+    const struct rays other = rays_start(&loaded.scene, 43);
     unsigned equal = 0;
     for (uint64_t i = 0; i < 1200; i++) {
-        const accel_ray first = accel_rays_make(&rays, i);
-        accel_rays_make(&rays, 1199 - i);
-        const accel_ray second = accel_rays_make(&rays, i);
+        const accel_ray first = rays_make(&rays, i);
+        rays_make(&rays, 1199 - i);
+        const accel_ray second = rays_make(&rays, i);
         assert_memory_equal(&first, &second, sizeof first);
-        const accel_ray foreign = accel_rays_make(&other, i);
+        const accel_ray foreign = rays_make(&other, i);
         equal += memcmp(&first, &foreign, sizeof first) == 0;
     }
     assert_true(equal < 12);
-    accel_unload_scene(&loaded);
+    unload_scene(&loaded);
 }
 
 int main(void)

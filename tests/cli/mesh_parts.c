@@ -22,17 +22,17 @@
 
 enum { NUMBERS = 200000, POLYGONS = 3000, MOST_CORNERS = 80 };
 
-static accel_random numbers;
+static struct random numbers;
 
 /* Below `limit`. */
 static uint32_t whole(uint32_t limit)
 {
-    return (uint32_t)(accel_random_bits(&numbers) % limit);
+    return (uint32_t)(random_bits(&numbers) % limit);
 }
 
 static double real(double low, double high)
 {
-    return low + (high - low) * (double)(accel_random_bits(&numbers) >> 11) / 0x1p53;
+    return low + (high - low) * (double)(random_bits(&numbers) >> 11) / 0x1p53;
 }
 
 /* ---------------------------------------------------------------- numbers ---- */
@@ -102,7 +102,7 @@ static void random_word(char *word)
 static void check_near_double(void)
 {
     char word[1200];
-    const uint64_t bits = accel_random_bits(&numbers);
+    const uint64_t bits = random_bits(&numbers);
     double number;
     memcpy(&number, &bits, sizeof number);
     if (!isfinite(number)) {
@@ -193,19 +193,19 @@ static void test_locale(void **state)
     }
     assert_string_equal(localeconv()->decimal_point, ",");
     for (int i = 0; i < 2; i++) {
-        accel_loaded loaded = {0};
+        struct loaded loaded = {0};
         accel_error error;
-        const accel_mesh_source source = {.name = files[i].name,
-                                          .bytes = files[i].text,
-                                          .size = strlen(files[i].text),
-                                          .memory = 1 << 20};
-        if (!accel_mesh_read(&loaded, &source, &error)) {
+        const struct mesh_source source = {.name = files[i].name,
+                                           .bytes = files[i].text,
+                                           .size = strlen(files[i].text),
+                                           .memory = 1 << 20};
+        if (!mesh_load(&loaded, &source, &error)) {
             fail_msg("%s", error.text);
         }
         double at[3];
-        accel_scene_vertex(&loaded.geometries[0].triangles, 0, 0, at);
+        scene_vertex(&loaded.geometries[0].triangles, 0, 0, at);
         assert_true(at[0] == 0.1 && at[1] == 1.5e-3 && at[2] == 0.30000000000000004);
-        accel_unload_scene(&loaded);
+        unload_scene(&loaded);
     }
     test_numbers(NULL);
     setlocale(LC_ALL, "C");
@@ -228,17 +228,17 @@ static void test_memory(void **state)
          "shows 2 meshes of 20000 triangles together, which take 1 MB of memory, but 1 MB are "
          "free"}};
     for (int i = 0; i < 2; i++) {
-        accel_loaded loaded = {0};
+        struct loaded loaded = {0};
         accel_error error;
-        const accel_mesh_source source = {.name = "a.gltf",
-                                          .bytes = files[i].text,
-                                          .size = strlen(files[i].text),
-                                          .memory = 1 << 20};
-        assert_false(accel_mesh_read(&loaded, &source, &error));
+        const struct mesh_source source = {.name = "a.gltf",
+                                           .bytes = files[i].text,
+                                           .size = strlen(files[i].text),
+                                           .memory = 1 << 20};
+        assert_false(mesh_load(&loaded, &source, &error));
         if (strstr(error.text, files[i].words) == NULL) {
             fail_msg("%s", error.text);
         }
-        accel_unload_scene(&loaded);
+        unload_scene(&loaded);
     }
 }
 
@@ -482,7 +482,7 @@ static void test_odd_polygons(void **state)
 
 int main(void)
 {
-    numbers = accel_random_start(1, 0, 0);
+    numbers = random_start(1, 0, 0);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_numbers),  cmocka_unit_test(test_words),
         cmocka_unit_test(test_locale),   cmocka_unit_test(test_memory),

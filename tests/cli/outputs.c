@@ -169,7 +169,7 @@ static void prepare(const trial *t)
 /* In the child: 0 it was said to be written, 1 not, and why is in the file "said". */
 static int write_out(const trial *t)
 {
-    accel_output output;
+    struct output output;
     accel_error error;
     const char *name = t->way == SYMBOLIC || t->way == DANGLING ? "link" : "out";
     char descriptor[40];
@@ -181,10 +181,10 @@ static int write_out(const trial *t)
     plan.fault = t->fault;
     plan.at = t->at;
     plan.calls = 0;
-    bool fine = accel_output_open(&output, name, &error);
+    bool fine = output_open(&output, name, &error);
     if (fine) {
         fputs(text_of('N', t->new_size), output.file);
-        fine = accel_output_commit(&output, &error);
+        fine = output_commit(&output, &error);
     }
     const bool through = plan.calls < plan.at;
     plan.at = 0;
@@ -307,11 +307,11 @@ static void every_call_may_be_the_last(void **state)
 
 static void write_new(const char *name)
 {
-    accel_output output;
+    struct output output;
     accel_error error;
-    assert_true(accel_output_open(&output, name, &error));
+    assert_true(output_open(&output, name, &error));
     fputs("new\n", output.file);
-    assert_true(accel_output_commit(&output, &error));
+    assert_true(output_commit(&output, &error));
     assert_true(holds(name, "new\n"));
 }
 
@@ -336,12 +336,12 @@ static void modes_are_kept(void **state)
     for (size_t i = 0; i < sizeof modes / sizeof modes[0]; i++) {
         store("moded", "old\n");
         assert_int_equal(chmod("moded", modes[i]), 0);
-        accel_output output;
+        struct output output;
         accel_error error;
-        assert_true(accel_output_open(&output, "moded", &error));
+        assert_true(output_open(&output, "moded", &error));
         assert_int_equal(fstat(output.descriptor, &status), 0);
         assert_int_equal(status.st_mode & 077, 0); /* nobody else reads what is not finished */
-        assert_true(accel_output_commit(&output, &error));
+        assert_true(output_commit(&output, &error));
         assert_int_equal(stat("moded", &status), 0);
         assert_int_equal(status.st_mode & 07777, modes[i]);
         assert_int_equal(unlink("moded"), 0);
@@ -353,9 +353,9 @@ static void children_remove_nothing(void **state)
 {
     (void)state;
     static const int signals[] = {SIGTERM, SIGSEGV, SIGXCPU};
-    accel_output output;
+    struct output output;
     accel_error error;
-    assert_true(accel_output_open(&output, "parents", &error));
+    assert_true(output_open(&output, "parents", &error));
     for (size_t i = 0; i < sizeof signals / sizeof signals[0]; i++) {
         fflush(NULL);
         const pid_t child = fork();
@@ -369,7 +369,7 @@ static void children_remove_nothing(void **state)
         assert_int_equal(access(output.temporary, F_OK), 0);
     }
     fputs("new\n", output.file);
-    assert_true(accel_output_commit(&output, &error) && holds("parents", "new\n"));
+    assert_true(output_commit(&output, &error) && holds("parents", "new\n"));
 }
 
 /* The name must not become too long by what is put behind it. */
@@ -391,30 +391,30 @@ enum { FILES = 2 };
 /* Writes a report of which all files hold `what`; the page names them. */
 static bool write_report(const char *name, char what, int count, accel_error *error)
 {
-    accel_folder report;
-    bool fine = accel_folder_open(&report, name, error);
+    struct folder report;
+    bool fine = folder_open(&report, name, error);
     if (!fine) {
         return false;
     }
     snprintf(error->text, sizeof error->text,
              "a file: No space left on device; nothing was written");
     for (int i = 0; i <= count && fine; i++) {
-        FILE *file = accel_folder_write(&report, i == count ? "index.html" : report_files[i]);
+        FILE *file = folder_write(&report, i == count ? "index.html" : report_files[i]);
         fine = file != NULL;
         if (fine && i == count) {
             fputs("<!DOCTYPE html><!-- accel report -->\n", file);
-            accel_folder_list(&report, file);
+            folder_list(&report, file);
         }
         if (fine) {
             fputs(text_of(what, 3000), file);
-            fine = accel_folder_close(&report, file) == NULL;
+            fine = folder_close(&report, file) == NULL;
         }
     }
     if (!fine) {
-        accel_folder_abandon(&report);
+        folder_abandon(&report);
         return false;
     }
-    return accel_folder_commit(&report, error);
+    return folder_commit(&report, error);
 }
 
 /* Does a file of a report end with the text of `what`? */
@@ -561,18 +561,18 @@ static void a_report_takes_nothing_of_the_users(void **state)
 static void what_was_removed_is_not_listed(void **state)
 {
     (void)state;
-    accel_folder report;
+    struct folder report;
     accel_error error;
     assert_int_equal(system("rm -rf ./*"), 0);
-    assert_true(accel_folder_open(&report, "page", &error));
-    FILE *scratch = accel_folder_write(&report, "scratch.txt");
-    assert_null(accel_folder_close(&report, scratch));
-    accel_folder_remove(&report, "scratch.txt");
-    FILE *page = accel_folder_write(&report, "index.html");
+    assert_true(folder_open(&report, "page", &error));
+    FILE *scratch = folder_write(&report, "scratch.txt");
+    assert_null(folder_close(&report, scratch));
+    folder_remove(&report, "scratch.txt");
+    FILE *page = folder_write(&report, "index.html");
     fputs("<!DOCTYPE html><!-- accel report -->\n", page);
-    accel_folder_list(&report, page);
-    assert_null(accel_folder_close(&report, page));
-    assert_true(accel_folder_commit(&report, &error));
+    folder_list(&report, page);
+    assert_null(folder_close(&report, page));
+    assert_true(folder_commit(&report, &error));
     store("page/scratch.txt", "mine\n");
     refuse_report("holds 'scratch.txt', which no report has made");
     assert_true(holds("page/scratch.txt", "mine\n"));

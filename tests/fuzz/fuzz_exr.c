@@ -24,11 +24,11 @@ static void *allocate(size_t size)
     return block;
 }
 
-static const char *decode(accel_image *image, const void *bytes, size_t size)
+static const char *decode(struct image *image, const void *bytes, size_t size)
 {
-    const accel_file file = {"in memory", (char *)(uintptr_t)bytes, size};
+    const struct file file = {"in memory", (char *)(uintptr_t)bytes, size};
     fresh ^= 0x55;
-    const char *trouble = accel_exr_decode(image, &file);
+    const char *trouble = exr_decode(image, &file);
     if (trouble)
         check_text(trouble);
     if (trouble && (image->channel_count > 0 || image->width > 0 || image->height > 0))
@@ -36,11 +36,11 @@ static const char *decode(accel_image *image, const void *bytes, size_t size)
     return trouble;
 }
 
-static void check_names(const accel_image *image)
+static void check_names(const struct image *image)
 {
     for (uint32_t i = 0; i < image->channel_count; i++) {
         const char *name = image->channels[i].name;
-        if (!memchr(name, '\0', ACCEL_CHANNEL_NAME))
+        if (!memchr(name, '\0', CHANNEL_NAME))
             broken("a channel's name does not end");
         check_text(name);
         if (i > 0 && strcmp(image->channels[i - 1].name, name) >= 0)
@@ -48,19 +48,19 @@ static void check_names(const accel_image *image)
     }
 }
 
-static size_t bytes_of_channel(const accel_image *image)
+static size_t bytes_of_channel(const struct image *image)
 {
     return (size_t)image->width * image->height * sizeof(uint32_t);
 }
 
-static void check_limits(const accel_image *image, size_t size)
+static void check_limits(const struct image *image, size_t size)
 {
     const size_t all = bytes_of_channel(image) * image->channel_count;
-    if (image->channel_count < 1 || image->channel_count > ACCEL_MOST_CHANNELS || all == 0 ||
-        all / image->channel_count / sizeof(uint32_t) > ACCEL_MOST_PIXELS)
+    if (image->channel_count < 1 || image->channel_count > MOST_CHANNELS || all == 0 ||
+        all / image->channel_count / sizeof(uint32_t) > MOST_PIXELS)
         broken("an image of %u x %u and %u channels", image->width, image->height,
                image->channel_count);
-    if (all / 2 / ACCEL_EXR_BEST_RATIO > size)
+    if (all / 2 / EXR_BEST_RATIO > size)
         broken("%zu bytes from a file of %zu", all, size);
     check_names(image);
 }
@@ -75,15 +75,15 @@ static void *read_back(int descriptor, size_t *size)
     return bytes;
 }
 
-static void *write_image(const accel_image *image, size_t *size)
+static void *write_image(const struct image *image, size_t *size)
 {
     accel_error error;
-    accel_output output = {.path = "in memory",
-                           .file = fdopen(memfd_create("exr", MFD_CLOEXEC), "w+b")};
+    struct output output = {.path = "in memory",
+                            .file = fdopen(memfd_create("exr", MFD_CLOEXEC), "w+b")};
     if (!output.file)
         broken("no file in memory");
     output.descriptor = fileno(output.file);
-    if (!accel_image_write_exr(image, &output, &error))
+    if (!image_write_exr(image, &output, &error))
         broken("what was read cannot be written: %s", error.text);
     fflush(output.file);
     void *bytes = read_back(fileno(output.file), size);
@@ -91,7 +91,7 @@ static void *write_image(const accel_image *image, size_t *size)
     return bytes;
 }
 
-static void check_same(const accel_image *a, const accel_image *b, const char *when)
+static void check_same(const struct image *a, const struct image *b, const char *when)
 {
     if (a->width != b->width || a->height != b->height || a->channel_count != b->channel_count)
         broken("%s: another size", when);
@@ -102,19 +102,19 @@ static void check_same(const accel_image *a, const accel_image *b, const char *w
             broken("%s: channel %s differs", when, a->channels[i].name);
 }
 
-static void check_again(const accel_image *image, const void *bytes, size_t size, const char *when)
+static void check_again(const struct image *image, const void *bytes, size_t size, const char *when)
 {
-    static accel_image again;
+    static struct image again;
     const char *trouble = decode(&again, bytes, size);
     if (trouble)
         broken("%s: %s", when, trouble);
     check_same(image, &again, when);
-    accel_image_free(&again);
+    image_free(&again);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
 {
-    static accel_image image;
+    static struct image image;
     size_t written;
     exr_set_default_memory_routines(allocate, free);
     if (decode(&image, bytes, size))
@@ -123,7 +123,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
     check_again(&image, bytes, size, "read again");
     void *copy = write_image(&image, &written);
     check_again(&image, copy, written, "written and read again");
-    accel_image_free(&image);
+    image_free(&image);
     free(copy);
     return 0;
 }

@@ -66,11 +66,11 @@ void __wrap_free(void *block)
 /* ---------------------------------------------------------------- reading ---- */
 
 /* Every other file that is asked for is this one. */
-static bool read_same(void *user, accel_file *file, const char *name, accel_error *error)
+static bool read_same(void *user, struct file *file, const char *name, accel_error *error)
 {
-    const accel_mesh_source *source = user;
+    const struct mesh_source *source = user;
     (void)error;
-    *file = (accel_file){.path = name, .bytes = malloc(source->size + 1), .size = source->size};
+    *file = (struct file){.path = name, .bytes = malloc(source->size + 1), .size = source->size};
     if (!file->bytes)
         return false;
     memcpy(file->bytes, source->bytes, source->size);
@@ -78,7 +78,7 @@ static bool read_same(void *user, accel_file *file, const char *name, accel_erro
     return true;
 }
 
-static void check_memory(const accel_mesh_source *source, size_t before)
+static void check_memory(const struct mesh_source *source, size_t before)
 {
     const size_t most = MOST_PLACED + MOST_FIXED + MOST_A_BYTE * source->size;
     if (peak - before > most)
@@ -86,20 +86,20 @@ static void check_memory(const accel_mesh_source *source, size_t before)
                peak - before);
 }
 
-static bool read_mesh(accel_loaded *out, const char *name, const char *bytes, size_t size)
+static bool read_mesh(struct loaded *out, const char *name, const char *bytes, size_t size)
 {
-    accel_mesh_source source = {
+    struct mesh_source source = {
         .name = name, .bytes = bytes, .size = size, .memory = MOST_PLACED, .beside = read_same};
     accel_error error = {ACCEL_OK, ""};
     const size_t before = held;
     source.user = &source;
-    *out = (accel_loaded){0};
+    *out = (struct loaded){0};
     peak = held;
-    const bool fine = accel_mesh_read(out, &source, &error);
+    const bool fine = mesh_load(out, &source, &error);
     check_memory(&source, before);
     if (!fine) {
         check_text(error.text);
-        accel_unload_scene(out);
+        unload_scene(out);
     }
     return fine;
 }
@@ -112,15 +112,15 @@ static bool all_finite(const accel_triangles *mesh)
     for (uint32_t i = 0; i < mesh->count; i++)
         for (int corner = 0; corner < 3; corner++) {
             double v[3];
-            accel_scene_vertex(mesh, i, corner, v);
+            scene_vertex(mesh, i, corner, v);
             finite = finite && isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]);
         }
     return finite;
 }
 
-static void check_mesh(const accel_loaded *loaded)
+static void check_mesh(const struct loaded *loaded)
 {
-    if (accel_scene_primitives(&loaded->scene) == 0)
+    if (scene_primitives(&loaded->scene) == 0)
         broken("a mesh without triangles is accepted");
     for (uint32_t g = 0; g < loaded->scene.count; g++) {
         const accel_geometry *geometry = &loaded->scene.geometries[g];
@@ -142,14 +142,14 @@ static bool same_mesh(const accel_triangles *a, const accel_triangles *b)
     for (uint32_t i = 0; same && i < a->count; i++)
         for (int corner = 0; corner < 3; corner++) {
             double v[3], w[3];
-            accel_scene_vertex(a, i, corner, v);
-            accel_scene_vertex(b, i, corner, w);
+            scene_vertex(a, i, corner, v);
+            scene_vertex(b, i, corner, w);
             same = same && memcmp(v, w, sizeof v) == 0;
         }
     return same;
 }
 
-static void check_same(const accel_loaded *a, const accel_loaded *b, const char *when)
+static void check_same(const struct loaded *a, const struct loaded *b, const char *when)
 {
     bool same = a->scene.count == b->scene.count;
     for (uint32_t g = 0; same && g < a->scene.count; g++)
@@ -185,7 +185,7 @@ static char *write_mesh(const accel_triangles *mesh, const char *format, size_t 
     for (uint32_t i = 0; i < mesh->count; i++)
         for (int corner = 0; corner < 3; corner++) {
             double v[3];
-            accel_scene_vertex(mesh, i, corner, v);
+            scene_vertex(mesh, i, corner, v);
             fprintf(f, "%s%.17g %.17g %.17g\n", obj ? "v " : "", v[0], v[1], v[2]);
         }
     for (unsigned i = 0; i < mesh->count; i++)
@@ -194,10 +194,10 @@ static char *write_mesh(const accel_triangles *mesh, const char *format, size_t 
     return text;
 }
 
-static void check_written(const accel_loaded *loaded, const char *format)
+static void check_written(const struct loaded *loaded, const char *format)
 {
     const accel_triangles *mesh = &loaded->scene.geometries[0].triangles;
-    accel_loaded again;
+    struct loaded again;
     size_t size;
     if (loaded->scene.count != 1 || !all_finite(mesh))
         return;
@@ -205,14 +205,14 @@ static void check_written(const accel_loaded *loaded, const char *format)
     if (!read_mesh(&again, "written", text, size))
         broken("a mesh written as %s is refused", format);
     check_same(loaded, &again, format);
-    accel_unload_scene(&again);
+    unload_scene(&again);
     free(text);
 }
 
 static void check(const char *name, const char *bytes, size_t size)
 {
     static const char *const formats[] = {"obj", "off", "ply"};
-    accel_loaded loaded, again;
+    struct loaded loaded, again;
     if (!read_mesh(&loaded, name, bytes, size))
         return;
     check_mesh(&loaded);
@@ -220,8 +220,8 @@ static void check(const char *name, const char *bytes, size_t size)
         broken("a mesh is refused the second time");
     check_same(&loaded, &again, "read again");
     check_written(&loaded, formats[size % 3]);
-    accel_unload_scene(&again);
-    accel_unload_scene(&loaded);
+    unload_scene(&again);
+    unload_scene(&loaded);
 }
 
 /* By each name, where the bytes leave the format open. */
@@ -232,7 +232,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
     json_set_alloc_funcs(malloc, free);
     if (size == 0)
         return 0;
-    if (accel_mesh_recognise("m", text, size) != ACCEL_MESH_OTHER) {
+    if (mesh_recognise("m", text, size) != MESH_OTHER) {
         check("m", text, size);
         return 0;
     }

@@ -84,15 +84,15 @@ static bool same_ray(const accel_ray *a, const accel_ray *b)
 /* A ray that skips nothing is written without its skip. */
 static void check_again(accel_ray ray)
 {
-    char text[ACCEL_RAY_TEXT];
+    char text[RAY_TEXT];
     accel_ray again;
     memset(text, 'x', sizeof text);
-    accel_write_ray(&ray, text);
+    write_ray(&ray, text);
     if (!memchr(text, '\0', sizeof text))
         broken("the text of a ray does not end");
     if (ray.skip.geom == ACCEL_NONE)
         ray.skip.prim = ACCEL_NONE;
-    if (!accel_read_ray(text, &again) || !same_ray(&ray, &again))
+    if (!ray_from_text(text, &again) || !same_ray(&ray, &again))
         broken("'%s' is not read as it was written", text);
 }
 
@@ -103,7 +103,7 @@ static void check_line(const char *line)
     char *copy = strdup(line);
     if (!copy)
         return;
-    const bool is_ray = accel_read_ray(line, &found);
+    const bool is_ray = ray_from_text(line, &found);
     if (is_ray != expect_ray(copy, &expected))
         broken("'%s' is %s", line, is_ray ? "taken as a ray" : "refused");
     if (is_ray && !same_ray(&found, &expected))
@@ -186,7 +186,7 @@ static bool expect_names(const char *line)
 }
 
 /* What the line is; *begun: a line that was not empty was there before. */
-static accel_ray_line expect_line(const char *line, bool *begun, accel_ray *ray)
+static enum ray_line expect_line(const char *line, bool *begun, accel_ray *ray)
 {
     struct cut c = {.text = malloc(strlen(line) + 2)};
     const bool first = !*begun, empty = line[strspn(line, blanks)] == '\0';
@@ -196,7 +196,7 @@ static accel_ray_line expect_line(const char *line, bool *begun, accel_ray *ray)
     const bool names = !empty && first && expect_names(line);
     const bool is_ray = cut_line(line, &c) && expect_gaps(&c) && expect_ray(c.text, ray);
     free(c.text);
-    return empty || names ? ACCEL_RAY_LINES_END : is_ray ? ACCEL_RAY_LINE : ACCEL_NO_RAY_LINE;
+    return empty || names ? RAY_LINES_END : is_ray ? RAY_LINE : NO_RAY_LINE;
 }
 
 /* Takes the next line of the file, without its comment. False: a zero is in it. */
@@ -216,17 +216,17 @@ static bool next_line(const char **at, const char *end, char *line)
 }
 
 /* What comes next in the file, of what the lines are one by one. */
-static accel_ray_line expect_next(const char **at, const char *end, char *line, bool *begun,
-                                  accel_ray *ray)
+static enum ray_line expect_next(const char **at, const char *end, char *line, bool *begun,
+                                 accel_ray *ray)
 {
     while (*at < end) {
         if (!next_line(at, end, line))
-            return ACCEL_NO_RAY_LINE;
-        const accel_ray_line found = expect_line(line, begun, ray);
-        if (found != ACCEL_RAY_LINES_END)
+            return NO_RAY_LINE;
+        const enum ray_line found = expect_line(line, begun, ray);
+        if (found != RAY_LINES_END)
             return found;
     }
-    return ACCEL_RAY_LINES_END;
+    return RAY_LINES_END;
 }
 
 static void check_file(const char *bytes, size_t size)
@@ -235,19 +235,19 @@ static void check_file(const char *bytes, size_t size)
     if (!copy || !line)
         broken("no memory");
     memcpy(copy, bytes, size);
-    accel_ray_lines lines =
-        accel_ray_lines_start(&(accel_file){.path = "rays", .bytes = copy, .size = size});
+    struct ray_lines lines =
+        ray_lines_start(&(struct file){.path = "rays", .bytes = copy, .size = size});
     const char *at = bytes + (lines.at - copy), *end = bytes + size;
-    accel_ray_line found;
+    enum ray_line found;
     bool begun = false;
     do {
         accel_ray ray, expected;
-        found = accel_next_ray(&lines, &ray);
+        found = next_ray(&lines, &ray);
         if (found != expect_next(&at, end, line, &begun, &expected))
             broken("line %zu, '%s', is taken as %d", lines.number, line, (int)found);
-        if (found == ACCEL_RAY_LINE && !same_ray(&ray, &expected))
+        if (found == RAY_LINE && !same_ray(&ray, &expected))
             broken("line %zu, '%s', is another ray", lines.number, line);
-    } while (found == ACCEL_RAY_LINE);
+    } while (found == RAY_LINE);
     free(copy);
     free(line);
 }

@@ -135,18 +135,18 @@ static double cluster(const accel_scene *scene, struct cluster_rule rule)
 {
     static const accel_hooks hooks;
     accel_error error = {.text = ""};
-    accel a = {.memory = {.resize = memory_system}};
+    accel a = {.memory = {.resize = accel_memory_system}};
     struct build build = {.a = &a, .hooks = &hooks, .error = &error, .phase = "clusters"};
     struct clustering found = {0};
-    assert_true(primitives_copy(&build, scene));
+    assert_true(accel_primitives_copy(&build, scene));
     const size_t before = a.memory.bytes;
-    assert_true(cluster_scene(&build, &found, rule, 0.0, 1.0));
+    assert_true(accel_cluster_scene(&build, &found, rule, 0.0, 1.0));
     check_whole(&a, &found);
     assert_in_range(a.memory.peak - before, 0, 65536 + MOST_BYTES * (size_t)a.prims.count);
     print_message("%6.1f bytes, ", (double)(a.memory.peak - before) / a.prims.count);
     const double looks = (double)found.looks;
-    cluster_free(&a.memory, &found);
-    primitives_free(&a.memory, &a.prims);
+    accel_cluster_free(&a.memory, &found);
+    accel_primitives_free(&a.memory, &a.prims);
     assert_int_equal(a.memory.bytes, 0);
     return looks;
 }

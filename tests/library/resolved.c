@@ -73,7 +73,7 @@ static double any_double(struct dice *d)
     return dice_chance(d, 0.3) ? floor(dice_unit(d) * 1e6) / 1e3 : x;
 }
 
-/* number_text prints as %g does in the C locale; number_parse is the inverse. */
+/* accel_number_text prints as %g does in the C locale; accel_number_parse is the inverse. */
 static void test_numbers(void **state)
 {
     (void)state;
@@ -85,8 +85,9 @@ static void test_numbers(void **state)
         double back = 0;
         snprintf(expected, sizeof expected, "%.*g", digits, x);
         enter_locale(i);
-        const struct number_text shortened = number_text(x, digits), exact = number_text_exact(x);
-        const bool parsed = number_parse(exact.at, strlen(exact.at), &back);
+        const struct number_text shortened = accel_number_text(x, digits),
+                                 exact = accel_number_text_exact(x);
+        const bool parsed = accel_number_parse(exact.at, strlen(exact.at), &back);
         leave_locale();
         assert_string_equal(shortened.at, expected);
         if (!parsed || bits_of(back) != bits_of(x))
@@ -135,7 +136,7 @@ static void test_spellings(void **state)
             spell_middle(&d, text, sizeof text);
         const double expected = strtod(text, NULL);
         enter_locale(i);
-        const bool parsed = number_parse(text, strlen(text), &found);
+        const bool parsed = accel_number_parse(text, strlen(text), &found);
         leave_locale();
         if (!parsed || bits_of(found) != bits_of(expected))
             fail_msg("%s is read as %a, not as %a", text, found, expected);
@@ -213,10 +214,10 @@ static void test_configs(void **state)
     (void)state;
     const accel_scene nothing = {NULL, 0};
     struct dice d = dice_from(test_seed(), 3);
-    size_t kinds;
-    const accel_kind_info *const *kind = accel_kinds(&kinds);
+    size_t accel_kind_list;
+    const accel_kind_info *const *kind = accel_kinds(&accel_kind_list);
     for (uint64_t i = 0; i < scaled_count(40000); i++) {
-        const accel_kind_info *k = kind[dice_below(&d, (uint32_t)kinds)];
+        const accel_kind_info *k = kind[dice_below(&d, (uint32_t)accel_kind_list)];
         char text[600];
         double value[40];
         any_config(&d, k, text, sizeof text, value);
@@ -312,15 +313,15 @@ static void test_structures(void **state)
 static void test_small_scenes(void **state)
 {
     (void)state;
-    size_t kinds;
-    const accel_kind_info *const *kind = accel_kinds(&kinds);
+    size_t accel_kind_list;
+    const accel_kind_info *const *kind = accel_kinds(&accel_kind_list);
     for (uint64_t i = 0; i < scaled_count(400); i++) {
         struct test_scene s;
         struct dice d = dice_from(test_seed(), i);
         scene_open(&s);
         make_soup(&s, &d, 1 + dice_below(&d, 60));
         scene_close(&s);
-        for (size_t k = 0; k < kinds; k++)
+        for (size_t k = 0; k < accel_kind_list; k++)
             build_again(&s, "soup", kind[k]->name, i + k);
         scene_free(&s);
     }

@@ -2,9 +2,9 @@
  *
  * The bounds that the walks of wide trees rest on (wide_ray.h), for one instruction set: a node's
  * test in float passes by no child whose S may matter. The rays try to break them: they go through
- * corners and edges of boxes, where S is as short as it can be, from near and from far, steeply, and
- * with limits at the last bit. Compiled once more with each bound a little too small, the test must
- * fail: see CMakeLists.txt.
+ * corners and edges of boxes, where S is as short as it can be, from near and from far, steeply,
+ * and with limits at the last bit. Compiled once more with each bound a little too small, the test
+ * must fail: see CMakeLists.txt.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -57,7 +57,7 @@ static void make_boxes(struct boxes *b, struct dice *d)
             box.hi[k] = fmin(at + side, size);
         }
         b->padded[i] = box;
-        const struct wide_item item = wide_item_of(&b->w, &box, i);
+        const struct wide_item item = accel_wide_item_of(&b->w, &box, i);
         memcpy(nodes[i].lo, item.lo, sizeof item.lo);
         memcpy(nodes[i].hi, item.hi, sizeof item.hi);
         c.place[i] = i;
@@ -109,7 +109,7 @@ static struct query query_of(const accel_ray *ray)
 {
     static const accel nothing;
     struct query q;
-    query_prepare(&q, &nothing, ray);
+    accel_query_prepare(&q, &nothing, ray);
     return q;
 }
 
@@ -123,7 +123,8 @@ static uint32_t count_lost(const struct boxes *b, const accel_ray *ray, double l
     if (!wide_ray_from(&r, &b->w, ray->org, ray->dir, ray->tmin))
         return 0;
     q.limit = limit;
-    const struct node_ray n = node_ray_from(&r, wide_limit(&r, limit < ray->tmax ? limit : ray->tmax));
+    const struct node_ray n =
+        node_ray_from(&r, wide_limit(&r, limit < ray->tmax ? limit : ray->tmax));
     const uint32_t meets = node_meets(&n, &b->node, begin);
     for (uint32_t i = 0; i < WIDE; i++) {
         const struct interval s = query_box(&q, &b->padded[i]);

@@ -58,9 +58,9 @@ static void make_room(room *r, int first, int last)
 }
 
 /* The face as a light of power 1, `away` inside the room. */
-static accel_light face_light(const room *r, int face, double away)
+static struct light face_light(const room *r, int face, double away)
 {
-    accel_light light = {.power = 1.0};
+    struct light light = {.power = 1.0};
     const double *corner = r->vertices[faces[face][0]];
     for (int k = 0; k < 3; k++) {
         light.edge[0][k] = r->vertices[faces[face][1]][k] - corner[k];
@@ -84,10 +84,10 @@ static accel *build(const accel_scene *scene, const char *config)
     return a;
 }
 
-static accel_photons trace(const accel *a, const accel_scene *scene, const accel_photon_run *run)
+static struct photons trace(const accel *a, const accel_scene *scene, const struct photon_run *run)
 {
-    accel_photons photons;
-    assert_true(accel_trace_photons(&photons, a, scene, run));
+    struct photons photons;
+    assert_true(trace_photons(&photons, a, scene, run));
     assert_int_equal(photons.query.refused, 0);
     return photons;
 }
@@ -134,7 +134,7 @@ static double mean_over_disc(double x, double z, double radius)
     for (int i = 0; i < RINGS; i++) {
         for (int j = 0; j < SPOKES; j++) {
             const double r = radius * sqrt((i + 0.5) / RINGS), angle = 2.0 * PI * j / SPOKES;
-            sum += accel_ceiling_form_factor(x + r * cos(angle), z + r * sin(angle));
+            sum += ceiling_form_factor(x + r * cos(angle), z + r * sin(angle));
         }
     }
     return sum / (RINGS * SPOKES);
@@ -148,26 +148,26 @@ static void plates(void **state)
     (void)state;
     room r;
     make_room(&r, 2, 2);
-    const accel_light light = face_light(&r, 3, 0.0);
-    const accel_photon_run run = {
+    const struct light light = face_light(&r, 3, 0.0);
+    const struct photon_run run = {
         .lights = {&light, 1}, .photons = 1000000, .seed = 1, .threads = 2};
     accel *a = build(&r.scene, "linear");
-    accel_photons photons = trace(a, &r.scene, &run);
+    struct photons photons = trace(a, &r.scene, &run);
     const double n = run.photons, right = plates_form_factor(1.0, 1.0);
     assert_statistic("form factor of opposite faces of a cube", (double)photons.count / n, right,
                      sqrt(right * (1.0 - right) / n), 0.01);
     assert_true(photons.count == photons.absorbed);
 
     const double radius = 0.15;
-    const accel_receiver points[3] = {
+    const struct receiver points[3] = {
         {{0.5, 0.0, 0.5}, {0, 1, 0}}, {{0.2, 0.0, 0.5}, {0, 1, 0}}, {{0.8, 0.0, 0.2}, {0, 1, 0}}};
-    const accel_receivers receivers = {points, 3};
+    const struct receivers receivers = {points, 3};
     double by_paths[3], by_nearest[3];
     accel_query query = {.user = NULL};
     accel_error error;
-    assert_true(accel_irradiance_paths(&photons, &run, receivers, radius, "linear", by_paths,
-                                       &query, &error));
-    assert_true(accel_irradiance_nearest(&photons, &run, receivers, radius, 1000000, by_nearest));
+    assert_true(
+        irradiance_paths(&photons, &run, receivers, radius, "linear", by_paths, &query, &error));
+    assert_true(irradiance_nearest(&photons, &run, receivers, radius, 1000000, by_nearest));
     for (int i = 0; i < 3; i++) {
         const double mean = mean_over_disc(points[i].at[0], points[i].at[2], radius);
         const double chance = mean * PI * radius * radius;
@@ -175,7 +175,7 @@ static void plates(void **state)
         assert_statistic("irradiance by paths", by_paths[i], mean, spread, 0.02);
         assert_statistic("irradiance by all photons near", by_nearest[i], mean, spread, 0.02);
     }
-    accel_photons_free(&photons);
+    photons_free(&photons);
     accel_free(a);
 }
 
@@ -192,39 +192,39 @@ static void furnace(void **state)
     (void)state;
     room r;
     make_room(&r, 0, 5);
-    accel_light lights[6];
+    struct light lights[6];
     for (int f = 0; f < 6; f++) {
         lights[f] = face_light(&r, f, 0x1p-30);
     }
-    accel_photon_run run = {
+    struct photon_run run = {
         .lights = {lights, 6}, .photons = 10000, .reflectance = 0.5, .threads = 2};
-    const accel_receiver points[4] = {{{0.5, 0.0, 0.5}, {0, 1, 0}},
-                                      {{0.0, 0.3, 0.6}, {1, 0, 0}},
-                                      {{0.0, 0.0, 0.5}, {0, 1, 0}},
-                                      {{0.5, -0.1, 0.5}, {0, 1, 0}}};
+    const struct receiver points[4] = {{{0.5, 0.0, 0.5}, {0, 1, 0}},
+                                       {{0.0, 0.3, 0.6}, {1, 0, 0}},
+                                       {{0.0, 0.0, 0.5}, {0, 1, 0}},
+                                       {{0.5, -0.1, 0.5}, {0, 1, 0}}};
     static const double right[4] = {2.0, 2.0, 2.0 * (0.5 + 0.125), 2.0 * (1.0 - 0.25)};
     accel *a = build(&r.scene, "linear");
     /* few photons each, over the whole floor: a bias of 1/20 would show */
-    accel_receiver floor[64];
+    struct receiver floor[64];
     for (int i = 0; i < 64; i++) {
-        floor[i] = (accel_receiver){{(i % 8 + 0.5) / 8, 0, (i / 8 + 0.5) / 8}, {0, 1, 0}};
+        floor[i] = (struct receiver){{(i % 8 + 0.5) / 8, 0, (i / 8 + 0.5) / 8}, {0, 1, 0}};
     }
     double mean[SEEDS], few[SEEDS], paths[4][SEEDS], nearest[2][SEEDS];
     for (int i = 0; i < SEEDS; i++) {
         run.seed = (uint64_t)i;
-        accel_photons photons = trace(a, &r.scene, &run);
+        struct photons photons = trace(a, &r.scene, &run);
         double by_paths[4], by_nearest[2];
         accel_query query = {.user = NULL};
         accel_error error;
         assert_int_equal(photons.escaped, 0); /* the box is closed */
-        mean[i] = (double)photons.count * accel_photon_power(&run, 0) / 6.0;
-        assert_true(accel_irradiance_paths(&photons, &run, (accel_receivers){points, 4}, 0.2,
-                                           "linear", by_paths, &query, &error));
-        assert_true(accel_irradiance_nearest(&photons, &run, (accel_receivers){points, 2}, 0.3,
-                                             1500, by_nearest));
+        mean[i] = (double)photons.count * photon_power(&run, 0) / 6.0;
+        assert_true(irradiance_paths(&photons, &run, (struct receivers){points, 4}, 0.2, "linear",
+                                     by_paths, &query, &error));
+        assert_true(irradiance_nearest(&photons, &run, (struct receivers){points, 2}, 0.3, 1500,
+                                       by_nearest));
         double by_few[64];
-        assert_true(accel_irradiance_nearest(&photons, &run, (accel_receivers){floor, 64}, 0.05, 20,
-                                             by_few));
+        assert_true(
+            irradiance_nearest(&photons, &run, (struct receivers){floor, 64}, 0.05, 20, by_few));
         few[i] = 0.0;
         for (int k = 0; k < 64; k++) {
             few[i] += by_few[k] / 64;
@@ -234,7 +234,7 @@ static void furnace(void **state)
         }
         nearest[0][i] = by_nearest[0];
         nearest[1][i] = by_nearest[1];
-        accel_photons_free(&photons);
+        photons_free(&photons);
     }
     assert_mean("furnace, mean of all walls", mean, 2.0, 0.01);
     assert_mean("furnace, by 20 photons", few, 2.0, 0.01);
@@ -254,11 +254,11 @@ static void integrating_sphere(void **state)
     const accel_geometry geometry = {.type = ACCEL_SPHERES,
                                      .spheres = {.spheres = ball, .count = 1}};
     const accel_scene scene = {&geometry, 1};
-    const accel_light light = {{1.5, 2.0, 3.0}, {{0.5, 0, 0}, {0, 0.5, 0}}, 1.0};
-    const accel_photon_run run = {
+    const struct light light = {{1.5, 2.0, 3.0}, {{0.5, 0, 0}, {0, 0.5, 0}}, 1.0};
+    const struct photon_run run = {
         .lights = {&light, 1}, .photons = 100000, .reflectance = 0.8, .seed = 3, .threads = 2};
     accel *a = build(&scene, "linear");
-    accel_photons photons = trace(a, &scene, &run);
+    struct photons photons = trace(a, &scene, &run);
     double sum[3] = {0.0, 0.0, 0.0};
     size_t count = 0;
     for (size_t i = 0; i < photons.count; i++) {
@@ -273,7 +273,7 @@ static void integrating_sphere(void **state)
         assert_statistic("mean coordinate", sum[k] / (double)count, ball[k],
                          sqrt(4.0 / 3.0 / (double)count), 0.01);
     }
-    accel_photons_free(&photons);
+    photons_free(&photons);
     accel_free(a);
 }
 
@@ -283,16 +283,16 @@ static void energy_balance(void **state)
     (void)state;
     room r;
     make_room(&r, 0, 3); /* open in front and behind */
-    const accel_light lights[2] = {face_light(&r, 4, 0.0), face_light(&r, 5, 0.0)};
-    const accel_photon_run run = {
+    const struct light lights[2] = {face_light(&r, 4, 0.0), face_light(&r, 5, 0.0)};
+    const struct photon_run run = {
         .lights = {lights, 2}, .photons = 50000, .reflectance = 0.7, .seed = 5, .threads = 2};
     accel *a = build(&r.scene, "linear");
-    accel_photons photons = trace(a, &r.scene, &run);
+    struct photons photons = trace(a, &r.scene, &run);
     uint64_t paths = 0;
     double first = 0.0, reflected = 0.0;
     for (size_t i = 0; i < photons.count; i++) {
-        const accel_photon *p = &photons.at[i];
-        const double power = accel_photon_power(&run, p->light);
+        const struct photon *p = &photons.at[i];
+        const double power = photon_power(&run, p->light);
         paths += p->bounce == 0;
         first += p->bounce == 0 ? power : 0.0;
         reflected += p->bounce == 0 ? 0.0 : power;
@@ -306,21 +306,21 @@ static void energy_balance(void **state)
     assert_int_equal(photons.rays, photons.count + photons.escaped);
     assert_int_equal(photons.rays - photons.emitted, photons.count - photons.absorbed);
     /* arrived = absorbed + sent on; each of up to 2^18 additions rounds by 2^-53 */
-    const double absorbed = (double)photons.absorbed * accel_photon_power(&run, 0);
-    const double sent_on = (double)(photons.rays - photons.emitted) * accel_photon_power(&run, 0);
+    const double absorbed = (double)photons.absorbed * photon_power(&run, 0);
+    const double sent_on = (double)(photons.rays - photons.emitted) * photon_power(&run, 0);
     assert_true(paths <= photons.emitted);
     assert_true(fabs(first + reflected - absorbed - sent_on) <
                 (first + reflected) * 0x1p18 * 0x1p-53);
-    accel_photons_free(&photons);
+    photons_free(&photons);
     accel_free(a);
 }
 
 /* Discs on the faces of a corner cube of the first cluster, many of them across each other. */
-static void make_discs(accel_receiver discs[DISCS])
+static void make_discs(struct receiver discs[DISCS])
 {
     for (int i = 0; i < DISCS; i++) {
         const double along = (i / 3) * 0.1;
-        discs[i] = (accel_receiver){.at = {along, 14.0 + along, along}};
+        discs[i] = (struct receiver){.at = {along, 14.0 + along, along}};
         discs[i].at[i % 3] = i % 3 == 1 ? 15.0 : 0.0;
         discs[i].normal[i % 3] = i % 3 == 1 ? 1.0 : -1.0;
     }
@@ -330,14 +330,14 @@ static void make_discs(accel_receiver discs[DISCS])
 static void same_bits(void **state)
 {
     (void)state;
-    accel_loaded loaded;
+    struct loaded loaded;
     accel_error error;
-    assert_true(accel_load_scene(&loaded, "cubes:gap=4", NULL, NULL, &error));
-    accel_light lights[ACCEL_MOST_LIGHTS];
-    accel_photon_run run = {.lights = {lights, 0}, .photons = 3000, .reflectance = 0.8, .seed = 7};
-    run.lights.count = accel_scene_lights("cubes:gap=4", &loaded.scene, lights);
+    assert_true(load_scene(&loaded, "cubes:gap=4", NULL, NULL, &error));
+    struct light lights[MOST_LIGHTS];
+    struct photon_run run = {.lights = {lights, 0}, .photons = 3000, .reflectance = 0.8, .seed = 7};
+    run.lights.count = scene_lights("cubes:gap=4", &loaded.scene, lights);
     assert_int_equal(run.lights.count, 2);
-    accel_receiver discs[DISCS];
+    struct receiver discs[DISCS];
     make_discs(discs);
     double first[DISCS], again[DISCS], sum = 0.0;
     size_t kinds;
@@ -347,18 +347,18 @@ static void same_bits(void **state)
         accel *a = build(&loaded.scene, kind[i]->name);
         for (unsigned threads = 1; threads <= 7; threads += 3) {
             run.threads = threads;
-            accel_photons photons = trace(a, &loaded.scene, &run);
-            hash = hash == 0 ? accel_photons_hash(&photons) : hash;
+            struct photons photons = trace(a, &loaded.scene, &run);
+            hash = hash == 0 ? photons_hash(&photons) : hash;
             assert_true(photons.count > 3000);
-            assert_true(hash == accel_photons_hash(&photons));
+            assert_true(hash == photons_hash(&photons));
             accel_query query = {.user = NULL};
-            assert_true(accel_irradiance_paths(&photons, &run, (accel_receivers){discs, DISCS}, 1.5,
-                                               kind[i]->name, again, &query, &error));
+            assert_true(irradiance_paths(&photons, &run, (struct receivers){discs, DISCS}, 1.5,
+                                         kind[i]->name, again, &query, &error));
             if (i == 0 && threads == 1) {
                 memcpy(first, again, sizeof first);
             }
             assert_memory_equal(first, again, sizeof first);
-            accel_photons_free(&photons);
+            photons_free(&photons);
         }
         accel_free(a);
     }
@@ -366,7 +366,7 @@ static void same_bits(void **state)
         sum += first[i] > 0.0;
     }
     assert_true(sum >= DISCS / 4); /* those that face the light are lit */
-    accel_unload_scene(&loaded);
+    unload_scene(&loaded);
 }
 
 /* The irradiance that one path of power 1 leaves on a disc of radius 1 around the origin, facing
@@ -374,20 +374,20 @@ static void same_bits(void **state)
 static double crossings(double x, double y, double z, double dx, double dy, double dz,
                         double length)
 {
-    accel_photon photon = {.dir = {dx, dy, dz}, .length = length};
+    struct photon photon = {.dir = {dx, dy, dz}, .length = length};
     const double org[3] = {x, y, z};
     for (int k = 0; k < 3; k++) {
         photon.at[k] = org[k] + length * photon.dir[k];
     }
-    const accel_light light = {.power = 1.0};
-    const accel_photons photons = {.at = &photon, .count = 1};
-    const accel_photon_run run = {.lights = {&light, 1}, .photons = 1, .threads = 1};
-    const accel_receiver receiver = {{0, 0, 0}, {0, 1, 0}};
+    const struct light light = {.power = 1.0};
+    const struct photons photons = {.at = &photon, .count = 1};
+    const struct photon_run run = {.lights = {&light, 1}, .photons = 1, .threads = 1};
+    const struct receiver receiver = {{0, 0, 0}, {0, 1, 0}};
     double irradiance;
     accel_query query = {.user = NULL};
     accel_error error;
-    assert_true(accel_irradiance_paths(&photons, &run, (accel_receivers){&receiver, 1}, 1.0,
-                                       "linear", &irradiance, &query, &error));
+    assert_true(irradiance_paths(&photons, &run, (struct receivers){&receiver, 1}, 1.0, "linear",
+                                 &irradiance, &query, &error));
     return irradiance * acos(-1.0);
 }
 
@@ -412,14 +412,14 @@ static void crossing_rule(void **state)
  * square of the distance that the estimate divides by. */
 static double near_power(double dy, double radius, uint32_t nearest)
 {
-    accel_photon photon = {.at = {0, 0.6, 0.8}, .dir = {0, dy, 0}, .length = 1};
-    const accel_light light = {.power = 1.0};
-    const accel_photons photons = {.at = &photon, .count = 1};
-    const accel_photon_run run = {.lights = {&light, 1}, .photons = 1, .threads = 1};
-    const accel_receiver receiver = {{0, 0, 0}, {0, 1, 0}};
+    struct photon photon = {.at = {0, 0.6, 0.8}, .dir = {0, dy, 0}, .length = 1};
+    const struct light light = {.power = 1.0};
+    const struct photons photons = {.at = &photon, .count = 1};
+    const struct photon_run run = {.lights = {&light, 1}, .photons = 1, .threads = 1};
+    const struct receiver receiver = {{0, 0, 0}, {0, 1, 0}};
     double irradiance;
-    assert_true(accel_irradiance_nearest(&photons, &run, (accel_receivers){&receiver, 1}, radius,
-                                         nearest, &irradiance));
+    assert_true(irradiance_nearest(&photons, &run, (struct receivers){&receiver, 1}, radius,
+                                   nearest, &irradiance));
     return irradiance * acos(-1.0);
 }
 
@@ -437,11 +437,11 @@ static void nearest_rule(void **state)
 static void reading_lights(void **state)
 {
     (void)state;
-    accel_light light;
-    assert_null(accel_read_light("1,2,3:4,0,0:0,0,5", &light));
+    struct light light;
+    assert_null(light_read("1,2,3:4,0,0:0,0,5", &light));
     assert_true(light.corner[2] == 3.0 && light.edge[0][0] == 4.0 && light.edge[1][2] == 5.0 &&
                 light.power == 1.0);
-    assert_null(accel_read_light("1,2,3:4,0,0:0,0,5:2.5", &light));
+    assert_null(light_read("1,2,3:4,0,0:0,0,5:2.5", &light));
     assert_true(light.power == 2.5);
     static const char *const wrong[] = {"",
                                         "1,2,3",
@@ -456,7 +456,7 @@ static void reading_lights(void **state)
                                         "1,2,3:4,0,0:0,0,nan",
                                         "1,2,3:4,0,0:0,0,5:1,1"};
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
-        assert_non_null(accel_read_light(wrong[i], &light));
+        assert_non_null(light_read(wrong[i], &light));
     }
 }
 

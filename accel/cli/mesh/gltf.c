@@ -22,7 +22,7 @@ typedef struct span {
 /* Finds the document and the binary chunk of a GLB. */
 static bool open_glb(gltf *g, span *json)
 {
-    const accel_mesh_source *source = g->r->source;
+    const struct mesh_source *source = g->r->source;
     const char *const begin = source->bytes;
     const uint32_t version = source->size < 20 ? 0 : mesh_bytes32(begin + 4, false);
     const uint64_t size = source->size < 20 ? 0 : mesh_bytes32(begin + 8, false);
@@ -145,7 +145,7 @@ static bool check_memory(gltf *g)
 }
 
 /* Moves the vertices that are used to the front, in their order, and renumbers the corners. */
-static bool keep_used(accel_growing *mesh)
+static bool keep_used(struct growing *mesh)
 {
     const size_t vertices = mesh->number_count / 3;
     uint32_t *own = calloc(vertices + 1, sizeof *own);
@@ -174,7 +174,7 @@ static bool keep_used(accel_growing *mesh)
 
 static bool add_primitive(gltf *g, const gltf_placed *placed, const gltf_primitive *p)
 {
-    accel_growing *mesh = &g->r->mesh;
+    struct growing *mesh = &g->r->mesh;
     mesh->number_count = 3 * (size_t)p->vertex_count;
     mesh->index_count = 3 * (size_t)p->triangle_count;
     mesh->numbers = malloc(mesh->number_count * sizeof *mesh->numbers);

@@ -88,7 +88,7 @@ static char *name_beside(const char *uri)
 
 static bool take_file(gltf *g, const gltf_object *object, const char *uri, gltf_buffer *buffer)
 {
-    const accel_mesh_source *source = g->r->source;
+    const struct mesh_source *source = g->r->source;
     char quoted[MESH_FOUND_TEXT];
     char *name = name_beside(uri);
     if (name == NULL || source->beside == NULL) {
@@ -96,7 +96,7 @@ static bool take_file(gltf *g, const gltf_object *object, const char *uri, gltf_
         return gltf_refuse(g, object, "refers to %s, allowed is a file in the folder of the glTF",
                            mesh_quote(uri, strlen(uri), quoted));
     }
-    accel_file file = {0};
+    struct file file = {0};
     const bool fine = source->beside(source->user, &file, name, g->r->error);
     free(name);
     buffer->bytes = buffer->owned = file.bytes;

@@ -84,13 +84,13 @@ static bool is_obj(const mesh_text *start)
     return false;
 }
 
-static accel_mesh_format by_name(const char *name)
+static enum mesh_format by_name(const char *name)
 {
     static const struct {
         const char *ending;
-        accel_mesh_format format;
-    } endings[] = {{".obj", ACCEL_MESH_OBJ}, {".ply", ACCEL_MESH_PLY},   {".stl", ACCEL_MESH_STL},
-                   {".off", ACCEL_MESH_OFF}, {".gltf", ACCEL_MESH_GLTF}, {".glb", ACCEL_MESH_GLTF}};
+        enum mesh_format format;
+    } endings[] = {{".obj", MESH_OBJ}, {".ply", MESH_PLY},   {".stl", MESH_STL},
+                   {".off", MESH_OFF}, {".gltf", MESH_GLTF}, {".glb", MESH_GLTF}};
     const size_t length = strlen(name);
     for (size_t i = 0; i < sizeof endings / sizeof endings[0]; i++) {
         const size_t size = strlen(endings[i].ending);
@@ -98,38 +98,38 @@ static accel_mesh_format by_name(const char *name)
             return endings[i].format;
         }
     }
-    return ACCEL_MESH_OTHER;
+    return MESH_OTHER;
 }
 
-static accel_mesh_format by_content(const mesh_text *text)
+static enum mesh_format by_content(const mesh_text *text)
 {
     mesh_text commented = *text;
     commented.comment = '#';
     if (is_ply(text)) {
-        return ACCEL_MESH_PLY;
+        return MESH_PLY;
     }
     if (is_gltf(text)) {
-        return ACCEL_MESH_GLTF;
+        return MESH_GLTF;
     }
     if (mesh_is_binary_stl(text->begin, (size_t)(text->end - text->begin)) ||
         mesh_is_text_stl(text)) {
-        return ACCEL_MESH_STL;
+        return MESH_STL;
     }
     if (mesh_is_off(&commented)) {
-        return ACCEL_MESH_OFF;
+        return MESH_OFF;
     }
-    return is_obj(text) ? ACCEL_MESH_OBJ : ACCEL_MESH_OTHER;
+    return is_obj(text) ? MESH_OBJ : MESH_OTHER;
 }
 
-accel_mesh_format accel_mesh_recognise(const char *name, const char *bytes, size_t size)
+enum mesh_format mesh_recognise(const char *name, const char *bytes, size_t size)
 {
     mesh_text text = text_of(bytes, size);
-    const accel_mesh_format format = by_content(&text);
+    const enum mesh_format format = by_content(&text);
     free_text(&text);
-    return format == ACCEL_MESH_OTHER ? by_name(name) : format;
+    return format == MESH_OTHER ? by_name(name) : format;
 }
 
-static bool is_utf16(const accel_mesh_source *source)
+static bool is_utf16(const struct mesh_source *source)
 {
     return source->size >= 2 &&
            (memcmp(source->bytes, "\xFF\xFE", 2) == 0 || memcmp(source->bytes, "\xFE\xFF", 2) == 0);
@@ -160,14 +160,14 @@ static bool finish(mesh_reader *r)
 }
 
 /* Without its reader: what is no mesh in any of the formats. */
-static bool read_as(mesh_reader *r, accel_mesh_format format)
+static bool read_as(mesh_reader *r, enum mesh_format format)
 {
-    static mesh_read *const readers[] = {[ACCEL_MESH_OBJ] = mesh_read_obj,
-                                         [ACCEL_MESH_PLY] = mesh_read_ply,
-                                         [ACCEL_MESH_STL] = mesh_read_stl,
-                                         [ACCEL_MESH_OFF] = mesh_read_off,
-                                         [ACCEL_MESH_GLTF] = mesh_read_gltf};
-    if (format == ACCEL_MESH_OTHER) {
+    static mesh_read *const readers[] = {[MESH_OBJ] = mesh_read_obj,
+                                         [MESH_PLY] = mesh_read_ply,
+                                         [MESH_STL] = mesh_read_stl,
+                                         [MESH_OFF] = mesh_read_off,
+                                         [MESH_GLTF] = mesh_read_gltf};
+    if (format == MESH_OTHER) {
         return mesh_refuse(r, "is no OBJ, PLY, STL, OFF or glTF file");
     }
     if (is_utf16(r->source) && !mesh_is_binary_stl(r->source->bytes, r->source->size)) {
@@ -179,14 +179,14 @@ static bool read_as(mesh_reader *r, accel_mesh_format format)
     return readers[format](r) && finish(r);
 }
 
-bool accel_mesh_read(accel_loaded *out, const accel_mesh_source *source, accel_error *error)
+bool mesh_load(struct loaded *out, const struct mesh_source *source, accel_error *error)
 {
     mesh_reader r = {.source = source,
                      .out = out,
                      .error = error,
                      .text = text_of(source->bytes, source->size),
                      .cutter.most_work = MOST_CUTTING};
-    const bool fine = read_as(&r, accel_mesh_recognise(source->name, source->bytes, source->size));
+    const bool fine = read_as(&r, mesh_recognise(source->name, source->bytes, source->size));
     free_reader(&r);
     return fine;
 }

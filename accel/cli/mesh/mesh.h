@@ -15,33 +15,26 @@
 #include "scene.h"
 
 /* Reads the file `name` from the folder of the mesh file. Otherwise fills error->text. */
-typedef bool accel_mesh_beside(void *user, accel_file *file, const char *name, accel_error *error);
+typedef bool mesh_beside(void *user, struct file *file, const char *name, accel_error *error);
 
 /* A mesh file in memory. */
-typedef struct accel_mesh_source {
-    const char *name;              /* of the file; its ending decides where the bytes do not */
-    const char *bytes;             /* `size` of them */
-    size_t size;                   /* at least one */
-    uint64_t memory;               /* bytes that the vertices and triangles may take */
-    accel_mesh_beside *beside;     /* for the buffers of a glTF; NULL: there are no other files */
-    accel_load_progress *progress; /* may be NULL */
-    void *user;                    /* handed to beside and progress */
-} accel_mesh_source;
+struct mesh_source {
+    const char *name;        /* of the file; its ending decides where the bytes do not */
+    const char *bytes;       /* `size` of them */
+    size_t size;             /* at least one */
+    uint64_t memory;         /* bytes that the vertices and triangles may take */
+    mesh_beside *beside;     /* for the buffers of a glTF; NULL: there are no other files */
+    load_progress *progress; /* may be NULL */
+    void *user;              /* handed to beside and progress */
+};
 
 /* What a file holds, by its first bytes; by its name where they leave it open. */
-typedef enum accel_mesh_format {
-    ACCEL_MESH_OTHER,
-    ACCEL_MESH_OBJ,
-    ACCEL_MESH_PLY,
-    ACCEL_MESH_STL,
-    ACCEL_MESH_OFF,
-    ACCEL_MESH_GLTF
-} accel_mesh_format;
+enum mesh_format { MESH_OTHER, MESH_OBJ, MESH_PLY, MESH_STL, MESH_OFF, MESH_GLTF };
 
-accel_mesh_format accel_mesh_recognise(const char *name, const char *bytes, size_t size);
+enum mesh_format mesh_recognise(const char *name, const char *bytes, size_t size);
 
-/* Reads a mesh of any format but ACCEL_MESH_OTHER into *out, which must be zero. Otherwise fills
- * error->text with one line; *out then may hold a part, to be freed by accel_unload_scene. */
-bool accel_mesh_read(accel_loaded *out, const accel_mesh_source *source, accel_error *error);
+/* Reads a mesh of any format but MESH_OTHER into *out, which must be zero. Otherwise fills
+ * error->text with one line; *out then may hold a part, to be freed by unload_scene. */
+bool mesh_load(struct loaded *out, const struct mesh_source *source, accel_error *error);
 
 #endif

@@ -111,7 +111,7 @@ static bool vertex(obj *o)
                                 "weight and a colour",
                                 count);
     }
-    accel_grow_vertex(&o->r->mesh, numbers[0], numbers[1], numbers[2]);
+    grow_vertex(&o->r->mesh, numbers[0], numbers[1], numbers[2]);
     return true;
 }
 
@@ -282,10 +282,10 @@ static bool statement_list(obj *o)
 
 /* Adds the triangles first up to end as a geometry. `own` has a place for each vertex of the file:
  * its number in the part `stamp[vertex] - 1`. */
-static bool add_part(obj *o, const accel_growing *all, size_t first, size_t end, uint32_t number,
+static bool add_part(obj *o, const struct growing *all, size_t first, size_t end, uint32_t number,
                      uint32_t *own, uint32_t *stamp)
 {
-    accel_growing *mesh = &o->r->mesh;
+    struct growing *mesh = &o->r->mesh;
     for (size_t t = first; t < end; t++) {
         uint32_t corners[3];
         for (size_t k = 0; k < 3; k++) {
@@ -293,11 +293,11 @@ static bool add_part(obj *o, const accel_growing *all, size_t first, size_t end,
             if (stamp[vertex] != number + 1) {
                 const double *at = &all->numbers[3 * (size_t)vertex];
                 stamp[vertex] = number + 1;
-                own[vertex] = accel_grow_vertex(mesh, at[0], at[1], at[2]);
+                own[vertex] = grow_vertex(mesh, at[0], at[1], at[2]);
             }
             corners[k] = own[vertex];
         }
-        accel_grow_triangle(mesh, corners[0], corners[1], corners[2]);
+        grow_triangle(mesh, corners[0], corners[1], corners[2]);
     }
     return mesh_add_geometry(o->r);
 }
@@ -308,12 +308,12 @@ static bool add_parts(obj *o)
     if (o->part_count == 0) {
         return mesh_add_geometry(r);
     }
-    const accel_growing all = r->mesh;
+    const struct growing all = r->mesh;
     const size_t vertices = all.number_count / 3;
     uint32_t *own = malloc(vertices * sizeof *own + 1);
     uint32_t *stamp = calloc(vertices + 1, sizeof *stamp);
     bool fine = (own != NULL && stamp != NULL) || mesh_refuse_memory(r);
-    r->mesh = (accel_growing){0};
+    r->mesh = (struct growing){0};
     for (size_t i = 0; i <= o->part_count && fine; i++) {
         const size_t first = i == 0 ? 0 : o->parts[i - 1];
         const size_t end = i == o->part_count ? all.index_count / 3 : o->parts[i];

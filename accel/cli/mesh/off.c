@@ -104,7 +104,7 @@ static bool add_vertex(mesh_reader *r, const header *h, double place[4])
             place[k] /= place[3];
         }
     }
-    accel_grow_vertex(&r->mesh, place[0], place[1], place[2]);
+    grow_vertex(&r->mesh, place[0], place[1], place[2]);
     return true;
 }
 

@@ -201,7 +201,7 @@ static bool take_instance(body *b, const ply_element *e)
         }
     }
     if (e->role == PLY_VERTEX) {
-        accel_grow_vertex(&r->mesh, b->place[0], b->place[1], b->place[2]);
+        grow_vertex(&r->mesh, b->place[0], b->place[1], b->place[2]);
     } else if (e->role == PLY_FACE && !mesh_add_face(r, place)) {
         return false;
     }

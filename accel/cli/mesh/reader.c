@@ -191,8 +191,8 @@ bool mesh_add_geometry(mesh_reader *r)
     if (r->mesh.index_count == 0 && !r->mesh.failed) {
         free(r->mesh.numbers);
         free(r->mesh.indices);
-        r->mesh = (accel_growing){0};
+        r->mesh = (struct growing){0};
         return true;
     }
-    return accel_loaded_add(r->out, ACCEL_TRIANGLES, &r->mesh) || mesh_refuse_memory(r);
+    return loaded_add(r->out, ACCEL_TRIANGLES, &r->mesh) || mesh_refuse_memory(r);
 }

@@ -26,14 +26,14 @@ typedef struct mesh_indices {
 
 /* A mesh file under way. */
 typedef struct mesh_reader {
-    const accel_mesh_source *source;
-    accel_loaded *out;
+    const struct mesh_source *source;
+    struct loaded *out;
     accel_error *error;
-    mesh_text text;     /* of text formats */
-    accel_growing mesh; /* vertices and triangles of the geometry under way */
-    mesh_indices face;  /* corners of the face under way */
-    mesh_cutter cutter; /* for faces of more than three */
-    mesh_late *late;    /* `late_count` of them */
+    mesh_text text;      /* of text formats */
+    struct growing mesh; /* vertices and triangles of the geometry under way */
+    mesh_indices face;   /* corners of the face under way */
+    mesh_cutter cutter;  /* for faces of more than three */
+    mesh_late *late;     /* `late_count` of them */
     size_t late_count, late_room;
     mesh_indices late_corners;
     uint64_t largest;       /* corner plus one of all faces so far */
@@ -84,7 +84,7 @@ static inline void mesh_add_triangle(mesh_reader *r, const uint32_t corners[3], 
             r->largest_place = place;
         }
     }
-    accel_grow_triangle(&r->mesh, corners[0], corners[1], corners[2]);
+    grow_triangle(&r->mesh, corners[0], corners[1], corners[2]);
 }
 
 /* Makes triangles of the corners in r->face, and empties it. A face of one or two is counted as

@@ -101,7 +101,7 @@ static bool take_vertex(mesh_reader *r)
             return mesh_expect(r, "a decimal number in the range of double");
         }
     }
-    accel_grow_vertex(&r->mesh, place[0], place[1], place[2]);
+    grow_vertex(&r->mesh, place[0], place[1], place[2]);
     return true;
 }
 
@@ -185,8 +185,8 @@ static bool read_binary(mesh_reader *r)
         const uint32_t first = (uint32_t)(r->mesh.number_count / 3);
         for (int v = 1; v <= 3; v++) {
             const char *vertex = at + 12 * v;
-            accel_grow_vertex(&r->mesh, mesh_float(vertex, false), mesh_float(vertex + 4, false),
-                              mesh_float(vertex + 8, false));
+            grow_vertex(&r->mesh, mesh_float(vertex, false), mesh_float(vertex + 4, false),
+                        mesh_float(vertex + 8, false));
         }
         mesh_add_triangle(r, (const uint32_t[3]){first, first + 1, first + 2}, 0);
         mesh_tick(r);

@@ -6,13 +6,13 @@
  * Bounding Volume Hierarchies for Fast SIMD Ray Tracing of Incoherent Rays", 2008.
  *
  * Encoding: one block of memory holds nodes, 448 bytes each at multiples of 64, and leaves, which
- * are runs of blocks (wide_block) at multiples of 16. A word names either: its offset in units of 16
- * bytes, with the top bit set for a leaf. A node's boxes are in scaled coordinates, which lie in
+ * are runs of blocks (wide_block) at multiples of 16. A word names either: its offset in units of
+ * 16 bytes, with the top bit set for a leaf. A node's boxes are in scaled coordinates, which lie in
  * [-1, 1]: the scene's times a power of two, so that neither float's range nor the units of the
  * scene matter.
  *
- * Invariant: every bounded primitive is in exactly one leaf. A child's box contains the padded boxes
- * P' of all primitives below, moved out by WIDE_PAD: see wide_ray.h for what that pays for.
+ * Invariant: every bounded primitive is in exactly one leaf. A child's box contains the padded
+ * boxes P' of all primitives below, moved out by WIDE_PAD: see wide_ray.h for what that pays for.
  *
  * Cost: about 40 bytes a triangle. Bad at: what is smaller than 2^-23 of the scene is told apart by
  * no node, so a ray that goes there tests all that is there.
@@ -112,13 +112,13 @@ static inline const uint32_t *wide_block_ids(const struct wide_block *b)
 }
 
 /* The vertices of the i-th triangle of a block: 9 doubles, as primitives keep them. */
-void wide_vertices(const struct wide_block *b, unsigned i, double out[9]);
+void accel_wide_vertices(const struct wide_block *b, unsigned i, double out[9]);
 
 /* P' of the i-th triangle of a block, with the bits that the build gave it. */
-accel_box wide_triangle_box(const struct wide_block *b, unsigned i);
+accel_box accel_wide_triangle_box(const struct wide_block *b, unsigned i);
 
 /* P' of a triangle by its id: false if no leaf holds it. Goes through the whole tree. */
-bool wide_find_box(const struct wide *w, uint32_t id, accel_box *box);
+bool accel_wide_find_box(const struct wide *w, uint32_t id, accel_box *box);
 
 /* What leaves look like and cost. */
 struct wide_rule {
@@ -136,21 +136,22 @@ enum wide_cut {
 
 /* Builds the tree over all bounded primitives with isa's leaves. With `clusters` no node below the
  * ones that part clusters holds primitives of two. */
-bool wide_build(struct build *build, struct wide *w, const struct wide_isa *isa, enum wide_cut cut,
-                const struct clustering *clusters);
+bool accel_wide_build(struct build *build, struct wide *w, const struct wide_isa *isa,
+                      enum wide_cut cut, const struct clustering *clusters);
 
-void wide_free(struct memory *m, struct wide *w);
+void accel_wide_free(struct memory *m, struct wide *w);
 
 /* Any query by the general rule of query.h, on any ray. */
-void wide_walk(const struct wide *w, struct query *q);
+void accel_wide_walk(const struct wide *w, struct query *q);
 
 /* Tests a leaf's primitives by the general rule. */
-void wide_test_leaf(const struct wide *w, struct query *q, uint32_t word);
+void accel_wide_test_leaf(const struct wide *w, struct query *q, uint32_t word);
 
 /* Checks the invariant. */
-bool wide_validate(const accel *a, const struct wide *w, accel_error *error);
+bool accel_wide_validate(const accel *a, const struct wide *w, accel_error *error);
 
-/* ------------------------------------------------------- the binary tree it is collapsed from ---- */
+/* ------------------------------------------------------- the binary tree it is collapsed from ----
+ */
 
 /* A primitive under construction: its padded box, scaled, rounded outward. */
 struct wide_item {
@@ -164,30 +165,30 @@ struct wide_item {
  * the right one. */
 struct wide_binary {
     float lo[3], hi[3];
-    uint32_t first, count; /* its items */
-    uint32_t right;        /* place of the right child, 0 if the node has no children */
-    uint8_t slots;         /* children of one wide node that the subtree can make use of */
-    bool leaf;             /* as one child it is a leaf, not a wide node */
-    uint8_t left_of_all;   /* slots of its own wide node that the left side gets */
+    uint32_t first, count;  /* its items */
+    uint32_t right;         /* place of the right child, 0 if the node has no children */
+    uint8_t slots;          /* children of one wide node that the subtree can make use of */
+    bool leaf;              /* as one child it is a leaf, not a wide node */
+    uint8_t left_of_all;    /* slots of its own wide node that the left side gets */
     uint8_t left[WIDE + 1]; /* the same of j slots of another's; 0: j - 1 are as good */
 };
 
 struct wide_binary_tree {
     const struct clustering *clusters; /* or NULL */
-    struct wide_item *items;   /* in the order of the leaves */
-    struct wide_binary *nodes; /* 2n - 1 places; 0 is the root */
-    uint32_t count;            /* n */
+    struct wide_item *items;           /* in the order of the leaves */
+    struct wide_binary *nodes;         /* 2n - 1 places; 0 is the root */
+    uint32_t count;                    /* n */
 };
 
 /* Grows it, and decides by dynamic programming which of its nodes become wide nodes and leaves. */
-bool wide_grow(struct build *build, const struct wide *w, struct wide_rule rule, enum wide_cut cut,
-               struct wide_binary_tree *tree);
+bool accel_wide_grow(struct build *build, const struct wide *w, struct wide_rule rule,
+                     enum wide_cut cut, struct wide_binary_tree *tree);
 
 /* A primitive's box or a cluster's, scaled, rounded outward. */
-struct wide_item wide_item_of(const struct wide *w, const accel_box *box, uint32_t id);
+struct wide_item accel_wide_item_of(const struct wide *w, const accel_box *box, uint32_t id);
 
 /* Lays out nodes and leaves. */
-bool wide_emit(struct build *build, struct wide *w, struct wide_rule rule,
-               const struct wide_binary_tree *tree);
+bool accel_wide_emit(struct build *build, struct wide *w, struct wide_rule rule,
+                     const struct wide_binary_tree *tree);
 
 #endif

@@ -12,7 +12,8 @@
 #include "wide_isa.h"
 
 #if defined(__clang__)
-#pragma clang attribute push(__attribute__((target("avx2,fma,bmi,lzcnt,popcnt"))), apply_to = function)
+#pragma clang attribute push(__attribute__((target("avx2,fma,bmi,lzcnt,popcnt"))),                 \
+                             apply_to = function)
 #else
 #pragma GCC push_options
 /* The fused operations of the set are there to tempt it. */
@@ -54,9 +55,9 @@ static inline __m256 crossing(const struct node_ray *n, const char *node, size_t
 static inline uint32_t half_meets(const struct node_ray *n, const char *node, float *begin)
 {
     const size_t *near = n->near;
-    const __m256 a = _mm256_max_ps(
-        _mm256_max_ps(crossing(n, node, near[0], 0), crossing(n, node, near[1], 1)),
-        _mm256_max_ps(crossing(n, node, near[2], 2), n->tmin));
+    const __m256 a =
+        _mm256_max_ps(_mm256_max_ps(crossing(n, node, near[0], 0), crossing(n, node, near[1], 1)),
+                      _mm256_max_ps(crossing(n, node, near[2], 2), n->tmin));
     const __m256 z = _mm256_min_ps(
         _mm256_min_ps(crossing(n, node, 64 - near[0], 0), crossing(n, node, 320 - near[1], 1)),
         _mm256_min_ps(crossing(n, node, 576 - near[2], 2), n->limit));
@@ -107,15 +108,42 @@ static inline __m256d coordinates(const struct wide_block *b, uint32_t row, uint
 
 #define LANES 4
 typedef __m256d lanes;
-static inline lanes lanes_sub(lanes a, lanes b) { return _mm256_sub_pd(a, b); }
-static inline lanes lanes_mul(lanes a, lanes b) { return _mm256_mul_pd(a, b); }
-static inline lanes lanes_add(lanes a, lanes b) { return _mm256_add_pd(a, b); }
-static inline lanes lanes_div(lanes a, lanes b) { return _mm256_div_pd(a, b); }
-static inline lanes lanes_min(lanes a, lanes b) { return _mm256_min_pd(a, b); }
-static inline lanes lanes_max(lanes a, lanes b) { return _mm256_max_pd(a, b); }
-static inline lanes lanes_abs(lanes a) { return _mm256_andnot_pd(_mm256_set1_pd(-0.0), a); }
-static inline lanes lanes_all(double x) { return _mm256_set1_pd(x); }
-static inline void lanes_store(double *at, lanes a) { _mm256_store_pd(at, a); }
+static inline lanes lanes_sub(lanes a, lanes b)
+{
+    return _mm256_sub_pd(a, b);
+}
+static inline lanes lanes_mul(lanes a, lanes b)
+{
+    return _mm256_mul_pd(a, b);
+}
+static inline lanes lanes_add(lanes a, lanes b)
+{
+    return _mm256_add_pd(a, b);
+}
+static inline lanes lanes_div(lanes a, lanes b)
+{
+    return _mm256_div_pd(a, b);
+}
+static inline lanes lanes_min(lanes a, lanes b)
+{
+    return _mm256_min_pd(a, b);
+}
+static inline lanes lanes_max(lanes a, lanes b)
+{
+    return _mm256_max_pd(a, b);
+}
+static inline lanes lanes_abs(lanes a)
+{
+    return _mm256_andnot_pd(_mm256_set1_pd(-0.0), a);
+}
+static inline lanes lanes_all(double x)
+{
+    return _mm256_set1_pd(x);
+}
+static inline void lanes_store(double *at, lanes a)
+{
+    _mm256_store_pd(at, a);
+}
 #define lanes_compare(a, b, how) ((uint32_t)_mm256_movemask_pd(_mm256_cmp_pd(a, b, how)))
 
 #include "wide_leaf.h"
@@ -153,20 +181,20 @@ __attribute__((noinline)) CONTRACT_CHECK(contract_kept)
 #pragma GCC pop_options
 #endif
 
-static bool works_here(void)
+    static bool works_here(void)
 {
     return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
            __builtin_cpu_supports("bmi") && contract_kept();
 }
 
-const struct wide_isa wide_avx2 = {
+const struct wide_isa accel_wide_avx2 = {
     .name = "avx2",
     .works_here = works_here,
     .rule = {.lanes = 4, .pool = false, .node_cost = 1.0},
     .closest = closest,
     .any = any,
     .walk = walk,
-    .find_box = wide_find_box,
+    .find_box = accel_wide_find_box,
 };
 
 #endif

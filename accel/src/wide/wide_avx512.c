@@ -94,15 +94,42 @@ static inline struct leaf_ray leaf_ray_from(const struct wide_ray *r)
 
 #define LANES 8
 typedef __m512d lanes;
-static inline lanes lanes_sub(lanes a, lanes b) { return _mm512_sub_pd(a, b); }
-static inline lanes lanes_mul(lanes a, lanes b) { return _mm512_mul_pd(a, b); }
-static inline lanes lanes_add(lanes a, lanes b) { return _mm512_add_pd(a, b); }
-static inline lanes lanes_div(lanes a, lanes b) { return _mm512_div_pd(a, b); }
-static inline lanes lanes_min(lanes a, lanes b) { return _mm512_min_pd(a, b); }
-static inline lanes lanes_max(lanes a, lanes b) { return _mm512_max_pd(a, b); }
-static inline lanes lanes_abs(lanes a) { return _mm512_abs_pd(a); }
-static inline lanes lanes_all(double x) { return _mm512_set1_pd(x); }
-static inline void lanes_store(double *at, lanes a) { _mm512_store_pd(at, a); }
+static inline lanes lanes_sub(lanes a, lanes b)
+{
+    return _mm512_sub_pd(a, b);
+}
+static inline lanes lanes_mul(lanes a, lanes b)
+{
+    return _mm512_mul_pd(a, b);
+}
+static inline lanes lanes_add(lanes a, lanes b)
+{
+    return _mm512_add_pd(a, b);
+}
+static inline lanes lanes_div(lanes a, lanes b)
+{
+    return _mm512_div_pd(a, b);
+}
+static inline lanes lanes_min(lanes a, lanes b)
+{
+    return _mm512_min_pd(a, b);
+}
+static inline lanes lanes_max(lanes a, lanes b)
+{
+    return _mm512_max_pd(a, b);
+}
+static inline lanes lanes_abs(lanes a)
+{
+    return _mm512_abs_pd(a);
+}
+static inline lanes lanes_all(double x)
+{
+    return _mm512_set1_pd(x);
+}
+static inline void lanes_store(double *at, lanes a)
+{
+    _mm512_store_pd(at, a);
+}
 #define lanes_compare(a, b, how) ((uint32_t)_mm512_cmp_pd_mask(a, b, how))
 
 #include "wide_leaf.h"
@@ -114,8 +141,7 @@ static inline __m512d row(const struct wide_block *b, uint32_t number)
     const __mmask8 there = (__mmask8)((1u << b->count) - 1);
     if (b->type == WIDE_DOUBLES)
         return _mm512_maskz_loadu_pd(there, (const double *)wide_block_data(b) + place);
-    return _mm512_cvtps_pd(
-        _mm256_maskz_loadu_ps(there, (const float *)wide_block_data(b) + place));
+    return _mm512_cvtps_pd(_mm256_maskz_loadu_ps(there, (const float *)wide_block_data(b) + place));
 }
 
 static inline struct corners load_packed(const struct leaf_ray *l, const struct wide_block *b)
@@ -186,21 +212,21 @@ __attribute__((noinline)) CONTRACT_CHECK(contract_kept)
 #pragma GCC pop_options
 #endif
 
-static bool works_here(void)
+    static bool works_here(void)
 {
     return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
            __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") &&
            __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi") && contract_kept();
 }
 
-const struct wide_isa wide_avx512 = {
+const struct wide_isa accel_wide_avx512 = {
     .name = "avx512",
     .works_here = works_here,
     .rule = {.lanes = 8, .pool = true, .node_cost = 1.0},
     .closest = closest,
     .any = any,
     .walk = walk,
-    .find_box = wide_find_box,
+    .find_box = accel_wide_find_box,
 };
 
 #endif

@@ -36,7 +36,7 @@ static float up(double x)
     return (double)f >= x ? f : nextafterf(f, (float)INFINITY);
 }
 
-struct wide_item wide_item_of(const struct wide *w, const accel_box *box, uint32_t id)
+struct wide_item accel_wide_item_of(const struct wide *w, const accel_box *box, uint32_t id)
 {
     struct wide_item item = {.id = id};
     for (int k = 0; k < 3; k++) {
@@ -50,9 +50,10 @@ static bool allocate(struct build *build, struct wide_binary_tree *tree)
 {
     struct memory *m = &build->a->memory;
     const size_t n = tree->count;
-    tree->items = memory_resize(m, NULL, 0, n * sizeof *tree->items);
-    tree->nodes = tree->items ? memory_resize(m, NULL, 0, (2 * n - 1) * sizeof *tree->nodes) : NULL;
-    return tree->nodes || build_no_memory(build);
+    tree->items = accel_memory_resize(m, NULL, 0, n * sizeof *tree->items);
+    tree->nodes =
+        tree->items ? accel_memory_resize(m, NULL, 0, (2 * n - 1) * sizeof *tree->nodes) : NULL;
+    return tree->nodes || accel_build_no_memory(build);
 }
 
 static void release(struct build *build, struct wide_binary_tree *tree)
@@ -60,13 +61,13 @@ static void release(struct build *build, struct wide_binary_tree *tree)
     struct memory *m = &build->a->memory;
     const size_t n = tree->count;
     if (tree->items)
-        memory_resize(m, tree->items, n * sizeof *tree->items, 0);
+        accel_memory_resize(m, tree->items, n * sizeof *tree->items, 0);
     if (tree->nodes)
-        memory_resize(m, tree->nodes, (2 * n - 1) * sizeof *tree->nodes, 0);
+        accel_memory_resize(m, tree->nodes, (2 * n - 1) * sizeof *tree->nodes, 0);
 }
 
-bool wide_build(struct build *build, struct wide *w, const struct wide_isa *isa, enum wide_cut cut,
-                const struct clustering *clusters)
+bool accel_wide_build(struct build *build, struct wide *w, const struct wide_isa *isa,
+                      enum wide_cut cut, const struct clustering *clusters)
 {
     const struct primitives *p = &build->a->prims;
     struct wide_binary_tree tree = {.count = (uint32_t)p->bounded.count, .clusters = clusters};
@@ -74,19 +75,19 @@ bool wide_build(struct build *build, struct wide *w, const struct wide_isa *isa,
     w->isa = isa;
     w->scale = scale_of(&p->bounds, &largest);
     w->fast = largest <= FAST_COORDINATE;
-    build_phase(build, "tree");
-    bool fine = allocate(build, &tree) && wide_grow(build, w, isa->rule, cut, &tree);
+    accel_build_phase(build, "tree");
+    bool fine = allocate(build, &tree) && accel_wide_grow(build, w, isa->rule, cut, &tree);
     if (fine) {
-        build_phase(build, "layout");
-        fine = wide_emit(build, w, isa->rule, &tree);
+        accel_build_phase(build, "layout");
+        fine = accel_wide_emit(build, w, isa->rule, &tree);
     }
     release(build, &tree);
     return fine;
 }
 
-void wide_free(struct memory *m, struct wide *w)
+void accel_wide_free(struct memory *m, struct wide *w)
 {
     if (w->memory)
-        memory_resize(m, w->memory, w->bytes, 0);
+        accel_memory_resize(m, w->memory, w->bytes, 0);
     w->memory = NULL;
 }

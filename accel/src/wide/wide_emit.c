@@ -64,7 +64,8 @@ static void end_block(struct emitter *e, struct wide_block *b, size_t size)
 static struct wide_block *begin_block(struct emitter *e, enum wide_type type)
 {
     struct wide_block *b = (struct wide_block *)(e->w->base + e->used);
-    *b = (struct wide_block){.type = (uint8_t)type, .least_det = 0.0f, .far_origin = (float)INFINITY};
+    *b = (struct wide_block){
+        .type = (uint8_t)type, .least_det = 0.0f, .far_origin = (float)INFINITY};
     return b;
 }
 
@@ -168,7 +169,8 @@ static uint32_t emit_packed(struct emitter *e, const uint32_t *ids, uint32_t cou
         bound(b, v);
         for (uint32_t c = 0; c < 9; c++) {
             const float single = (float)v[c];
-            memcpy(at + size * (c * n + i), floats ? (const void *)&single : (const void *)&v[c], size);
+            memcpy(at + size * (c * n + i), floats ? (const void *)&single : (const void *)&v[c],
+                   size);
         }
     }
     memcpy(at + 9 * size * n, ids, n * sizeof *ids);
@@ -186,7 +188,8 @@ static uint32_t emit_list(struct emitter *e, const uint32_t *ids, uint32_t count
     return n;
 }
 
-static uint32_t emit_block(struct emitter *e, const uint32_t *ids, uint32_t count, enum wide_type type)
+static uint32_t emit_block(struct emitter *e, const uint32_t *ids, uint32_t count,
+                           enum wide_type type)
 {
     if (type == WIDE_LIST)
         return emit_list(e, ids, count);
@@ -342,9 +345,9 @@ static unsigned char *align(void *memory)
 static bool allocate(struct emitter *e, size_t bytes)
 {
     struct wide *w = e->w;
-    w->memory = memory_resize(&e->build->a->memory, NULL, 0, bytes + 64);
+    w->memory = accel_memory_resize(&e->build->a->memory, NULL, 0, bytes + 64);
     if (!w->memory)
-        return build_no_memory(e->build);
+        return accel_build_no_memory(e->build);
     w->bytes = bytes + 64;
     w->base = align(w->memory);
     return true;
@@ -354,9 +357,10 @@ static bool allocate(struct emitter *e, size_t bytes)
 static void trim(struct emitter *e)
 {
     struct wide *w = e->w;
-    const size_t bytes = e->used + TAIL + 64, shift = (size_t)(w->base - (unsigned char *)w->memory);
+    const size_t bytes = e->used + TAIL + 64,
+                 shift = (size_t)(w->base - (unsigned char *)w->memory);
     memset(w->base + e->used, 0, TAIL);
-    void *smaller = memory_resize(&e->build->a->memory, w->memory, w->bytes, bytes);
+    void *smaller = accel_memory_resize(&e->build->a->memory, w->memory, w->bytes, bytes);
     if (!smaller)
         return;
     w->memory = smaller;
@@ -366,8 +370,8 @@ static void trim(struct emitter *e)
         memmove(w->base, (unsigned char *)smaller + shift, e->used + TAIL);
 }
 
-bool wide_emit(struct build *build, struct wide *w, struct wide_rule rule,
-               const struct wide_binary_tree *tree)
+bool accel_wide_emit(struct build *build, struct wide *w, struct wide_rule rule,
+                     const struct wide_binary_tree *tree)
 {
     struct emitter e = {.build = build, .w = w, .rule = rule, .tree = tree};
     const size_t room = room_for(&e, 0) + TAIL;

@@ -5,9 +5,9 @@
  *     begin): the children that may matter as bits, and where they begin;
  *     push_children(top, meets, node): puts their words on a stack in order, and may write WIDE
  *     words; returns its new top;
- *     struct leaf_ray, leaf_ray_from(ray), leaf_test(&l, f, block, any): tests a block of triangles;
- *     true if the best hit became better.
- * Included once for each set: every function here is static.
+ *     struct leaf_ray, leaf_ray_from(ray), leaf_test(&l, f, block, any): tests a block of
+ * triangles; true if the best hit became better. Included once for each set: every function here is
+ * static.
  */
 #include "wide_isa.h"
 
@@ -57,9 +57,10 @@ static inline void expect(const struct wide *w, uint32_t word)
 }
 
 /* Stacks all children that are met but the nearest, which it returns; meets is not 0. */
-__attribute__((always_inline)) static inline uint32_t
-descend(const struct wide *w, const struct wide_node *node, uint32_t meets, const float *begin,
-        waiting **top)
+__attribute__((always_inline)) static inline uint32_t descend(const struct wide *w,
+                                                              const struct wide_node *node,
+                                                              uint32_t meets, const float *begin,
+                                                              waiting **top)
 {
     uint32_t i = next_child(&meets);
     expect(w, node->child[i]);
@@ -93,7 +94,7 @@ descend(const struct wide *w, const struct wide_node *node, uint32_t meets, cons
         *(*top)++ = waiting_of(begin[i], node->child[i]);
     }
     sort_waiting(bottom, *top);
-    return (uint32_t)*--*top;
+    return (uint32_t) * --*top;
 }
 
 static inline bool begin_fast(struct wide_fast *f, const accel *a, const struct wide *w,
@@ -122,9 +123,8 @@ static inline void end_fast(const struct wide_fast *f, accel_query *counters)
 }
 
 /* A leaf's blocks. True if the best hit became better. */
-__attribute__((always_inline)) static inline bool test_blocks(const struct leaf_ray *l,
-                                                              struct wide_fast *f,
-                                                              const struct wide_block *b, bool any)
+__attribute__((always_inline)) static inline bool
+test_blocks(const struct leaf_ray *l, struct wide_fast *f, const struct wide_block *b, bool any)
 {
     bool better = false;
     for (;; b = wide_next_block(b)) {
@@ -163,7 +163,7 @@ walk_closest(const accel *a, const struct wide *w, const accel_ray *ray, struct 
         do {
             if (top == stack)
                 return f->id != ACCEL_NONE ? WIDE_HIT : WIDE_MISSED;
-            word = (uint32_t)*--top;
+            word = (uint32_t) * --top;
         } while (*top >> 32 > bits_of(limit));
     }
 }
@@ -243,7 +243,7 @@ static bool walk(const struct wide *w, struct query *q)
                 goto next;
             word = descend(w, node, meets, begin, &top);
         }
-        wide_test_leaf(w, q, word);
+        accel_wide_test_leaf(w, q, word);
         if (query_done(q))
             return true;
         limit = query_end(&ray, q);
@@ -252,7 +252,7 @@ static bool walk(const struct wide *w, struct query *q)
         do {
             if (top == stack)
                 return true;
-            word = (uint32_t)*--top;
+            word = (uint32_t) * --top;
         } while (*top >> 32 > bits_of(limit));
     }
 }

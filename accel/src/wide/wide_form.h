@@ -7,7 +7,7 @@
 
 #include "wide_isa.h"
 
-extern const char *const wide_isa_words[], *const wide_form_words[];
+extern const char *const accel_wide_isa_words[], *const accel_wide_form_words[];
 
 /* The words of the option `form`, by index. */
 enum { WIDE_FORM_WIDE, WIDE_FORM_CLASSIC };
@@ -15,8 +15,8 @@ enum { WIDE_FORM_WIDE, WIDE_FORM_CLASSIC };
 /* Of a kind that has both; the wide one does without some options. */
 #define WIDE_FORM_OPTION(without)                                                                  \
     {                                                                                              \
-        .key = "form", .meaning = "auto: wide, but classic with " without,                          \
-        .words = wide_form_words, .standard = NAN                                                  \
+        .key = "form", .meaning = "auto: wide, but classic with " without,                         \
+        .words = accel_wide_form_words, .standard = NAN                                            \
     }
 
 /* The form that is built; `classic`: options are given that only that one has. */
@@ -27,14 +27,14 @@ static inline double wide_form_resolve(double form, bool classic)
 
 #define WIDE_ISA_OPTION                                                                            \
     {                                                                                              \
-        .key = "isa", .meaning = "instruction set of the walks; auto: the best that is there",      \
-        .words = wide_isa_words, .standard = NAN                                                   \
+        .key = "isa", .meaning = "instruction set of the walks; auto: the best that is there",     \
+        .words = accel_wide_isa_words, .standard = NAN                                             \
     }
 
 /* Builds the tree and fills in build->a->info; *isa is the option's value. */
-bool wide_form_build(struct build *build, struct wide *w, const double *isa, enum wide_cut cut,
-                     const struct clustering *clusters);
+bool accel_wide_form_build(struct build *build, struct wide *w, const double *isa,
+                           enum wide_cut cut, const struct clustering *clusters);
 
-void wide_form_walk(const struct wide *w, struct query *q);
+void accel_wide_form_walk(const struct wide *w, struct query *q);
 
 #endif

@@ -9,10 +9,10 @@
  * of its right one (after Wald, Benthin and Boulos 2008). A subtree of n primitives has no use for
  * more than n slots, so most of these tables are short.
  *
- * Depth: a range at depth d has at most 2^(WIDE_MAX_DEPTH - d) items. It holds at the root, as there
- * are fewer than 2^32; and a cut is only made if it holds on both sides, which the cut in the middle
- * always does. So a range at WIDE_MAX_DEPTH has one item. Clusters are parted in the same way within
- * CLUSTER_DEPTH levels.
+ * Depth: a range at depth d has at most 2^(WIDE_MAX_DEPTH - d) items. It holds at the root, as
+ * there are fewer than 2^32; and a cut is only made if it holds on both sides, which the cut in the
+ * middle always does. So a range at WIDE_MAX_DEPTH has one item. Clusters are parted in the same
+ * way within CLUSTER_DEPTH levels.
  */
 #include "wide.h"
 
@@ -24,7 +24,8 @@
  * two ticks, and those that could be looked at in the time that a leaf takes. */
 enum { BINS = 32, SWEEP = 8, LEAF = 8, TICK = 16384, TICK_LEAF = 8 };
 
-/* All three axes. Levels that clusters may take of the tree: below, 48 are left for 2^32 primitives.
+/* All three axes. Levels that clusters may take of the tree: below, 48 are left for 2^32
+ * primitives.
  */
 enum { ALL_AXES = 7, CLUSTER_DEPTH = 48 };
 
@@ -61,8 +62,8 @@ struct range {
     struct bounds box, keys;
 };
 
-/* Where to cut a range: before a bin of an axis, or behind the first `left` items, which then are in
- * order. */
+/* Where to cut a range: before a bin of an axis, or behind the first `left` items, which then are
+ * in order. */
 struct cut {
     float cost;    /* the heuristic's, of both sides */
     int axis, bin; /* axis < 0: none was found */
@@ -384,8 +385,7 @@ static bool grow(struct grower *g, uint32_t first, uint32_t count, uint32_t plac
                  uint32_t axes, struct costs *out)
 {
     struct wide_binary *node = &g->tree->nodes[place];
-    struct range r = {
-        .at = g->tree->items + first, .count = count, .weight = 1.0f, .axes = axes};
+    struct range r = {.at = g->tree->items + first, .count = count, .weight = 1.0f, .axes = axes};
     struct costs side[2];
     uint32_t left;
     if (!measure(g, &r))
@@ -414,7 +414,7 @@ static bool gather(struct grower *g, const uint32_t *ids, uint32_t first, uint32
     const accel_box *box = g->build->a->prims.box;
     struct wide_item *items = g->tree->items + first;
     for (uint32_t i = 0; i < count; i++) {
-        items[i] = wide_item_of(g->w, &box[ids[i]], ids[i]);
+        items[i] = accel_wide_item_of(g->w, &box[ids[i]], ids[i]);
         if (i % TICK == TICK - 1 && !tick(g, items, 0))
             return false;
     }
@@ -468,18 +468,18 @@ static bool grow_hierarchy(struct grower *g, struct costs *out)
     const struct clustering *c = g->tree->clusters;
     struct memory *m = &g->build->a->memory;
     const size_t bytes = c->clusters.count * sizeof(struct wide_item);
-    struct wide_item *clusters = memory_resize(m, NULL, 0, bytes);
+    struct wide_item *clusters = accel_memory_resize(m, NULL, 0, bytes);
     if (!clusters)
-        return build_no_memory(g->build);
+        return accel_build_no_memory(g->build);
     for (uint32_t i = 0; i < c->clusters.count; i++)
-        clusters[i] = wide_item_of(g->w, &c->clusters.at[i].box, i);
+        clusters[i] = accel_wide_item_of(g->w, &c->clusters.at[i].box, i);
     const bool fine = grow_clusters(g, clusters, (uint32_t)c->clusters.count, 0, 0, 0, out);
-    memory_resize(m, clusters, bytes, 0);
+    accel_memory_resize(m, clusters, bytes, 0);
     return fine;
 }
 
-bool wide_grow(struct build *build, const struct wide *w, struct wide_rule rule, enum wide_cut cut,
-               struct wide_binary_tree *tree)
+bool accel_wide_grow(struct build *build, const struct wide *w, struct wide_rule rule,
+                     enum wide_cut cut, struct wide_binary_tree *tree)
 {
     struct grower g = {.build = build, .w = w, .rule = rule, .cut = cut, .tree = tree};
     struct costs costs;

@@ -10,22 +10,22 @@
 
 #if defined(__x86_64__) && defined(__GNUC__)
 #define X86 1
-extern const struct wide_isa wide_avx512, wide_avx2;
+extern const struct wide_isa accel_wide_avx512, accel_wide_avx2;
 #endif
 
-const struct wide_isa *const wide_isas[] = {
+const struct wide_isa *const accel_wide_isas[] = {
 #if defined(X86)
-    &wide_avx512, &wide_avx2,
+    &accel_wide_avx512, &accel_wide_avx2,
 #endif
-    &wide_portable, NULL};
+    &accel_wide_portable, NULL};
 
 static void prepare(struct wide_fast *f)
 {
-    query_prepare(&f->q, f->a, f->caller);
+    accel_query_prepare(&f->q, f->a, f->caller);
     f->prepared = true;
 }
 
-bool wide_test_slowly(struct wide_fast *f, const struct wide_block *b, unsigned i)
+bool accel_wide_test_slowly(struct wide_fast *f, const struct wide_block *b, unsigned i)
 {
     const uint32_t id = wide_block_ids(b)[i];
     double vertices[9], t, u, v;
@@ -33,10 +33,10 @@ bool wide_test_slowly(struct wide_fast *f, const struct wide_block *b, unsigned 
         return false;
     if (!f->prepared)
         prepare(f);
-    wide_vertices(b, i, vertices);
-    if (!triangle_hit(&f->q, vertices, &t, &u, &v) || isnan(t))
+    accel_wide_vertices(b, i, vertices);
+    if (!accel_triangle_hit(&f->q, vertices, &t, &u, &v) || isnan(t))
         return false;
-    const accel_box box = wide_triangle_box(b, i);
+    const accel_box box = accel_wide_triangle_box(b, i);
     const struct interval s = query_box(&f->q, &box);
     if (!(s.a <= s.z))
         return false;

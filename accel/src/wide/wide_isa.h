@@ -25,14 +25,15 @@ struct wide_isa {
                                 accel_hit *hit, accel_query *counters);
     enum wide_answer (*any)(const accel *a, const struct wide *w, const accel_ray *ray,
                             accel_query *counters);
-    /* Any query but a point query, over any primitives: false if the ray is not one for this walk. */
+    /* Any query but a point query, over any primitives: false if the ray is not one for this walk.
+     */
     bool (*walk)(const struct wide *w, struct query *q);
-    bool (*find_box)(const struct wide *w, uint32_t id, accel_box *box); /* wide_find_box */
+    bool (*find_box)(const struct wide *w, uint32_t id, accel_box *box); /* accel_wide_find_box */
 };
 
 /* The sets that are compiled in, best first, NULL-ended; the last one works everywhere. */
-extern const struct wide_isa *const wide_isas[];
-extern const struct wide_isa wide_portable;
+extern const struct wide_isa *const accel_wide_isas[];
+extern const struct wide_isa accel_wide_portable;
 
 /* A closest or any query over triangles under way. */
 struct wide_fast {
@@ -50,6 +51,6 @@ struct wide_fast {
 };
 
 /* The i-th triangle of a block by the whole rule of query.h. True if it is the best hit so far. */
-bool wide_test_slowly(struct wide_fast *f, const struct wide_block *b, unsigned i);
+bool accel_wide_test_slowly(struct wide_fast *f, const struct wide_block *b, unsigned i);
 
 #endif

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Several triangles of a block at once, in double: the test of triangle.c, operation by operation in
- * the same order, so that what a lane computes has the same bits. Included by the file of an
+ * Several triangles of a block at once, in double: the test of triangle.c, operation by operation
+ * in the same order, so that what a lane computes has the same bits. Included by the file of an
  * instruction set after `lanes`, LANES of doubles, their operations, and struct leaf_ray.
  *
  * Lemma "no clamp". The rule of query.h clamps t into S(P'). Let v = 2^-53, C the largest
@@ -19,15 +19,13 @@
  * `scaled`, whose factors e have one sign, two in det, one in the quotient.
  * The exact edge functions E of the computed points fulfil sum E x = 0, and |e - E| <= 4 v m^2 with
  * m the largest |x| or |y|: so |sum w x| <= 12 v m^3 / |det|. The computed points hold the origin
- * between them, for the sign of e is right where it is not 0; hence |x| is at most the difference of
- * two of them, and m <= 2 L + 8.1 v D = 2 L + 65 v C. So, in units of v C, |o_x + t d_x - sum w p_x|
- * is at most
- *     L >= 4096: 12 * 8.2 from m^3 / |det|, 33 from x - X, 73 from t: 205;
- *     L >=  128: 12 * 15.8, 33 and 73: 296;
- *     L <   128: m itself, which |sum w x| does not exceed, 321, 33 and 73: 427;
- * and 73 on the major axis, where only t has an error. sum w p_x lies between the vertices, and P'
- * begins 2^-44 C = 512 v C before the first of them, but for v (C + 2^-44 C) by which that is
- * rounded. What the slabs are rounded by, 3 v, is less than the growth of S, 8 v, relatively. An
+ * between them, for the sign of e is right where it is not 0; hence |x| is at most the difference
+ * of two of them, and m <= 2 L + 8.1 v D = 2 L + 65 v C. So, in units of v C, |o_x + t d_x - sum w
+ * p_x| is at most L >= 4096: 12 * 8.2 from m^3 / |det|, 33 from x - X, 73 from t: 205; L >=  128:
+ * 12 * 15.8, 33 and 73: 296; L <   128: m itself, which |sum w x| does not exceed, 321, 33 and 73:
+ * 427; and 73 on the major axis, where only t has an error. sum w p_x lies between the vertices,
+ * and P' begins 2^-44 C = 512 v C before the first of them, but for v (C + 2^-44 C) by which that
+ * is rounded. What the slabs are rounded by, 3 v, is less than the growth of S, 8 v, relatively. An
  * axis with d = 0 asks the same of o_x itself. Underflow, or flushing to zero, adds at most 2^-1022
  * to any term, and by 2. C is at least 2^-455.
  */
@@ -69,8 +67,10 @@ test_lanes(const struct leaf_ray *l, struct wide_fast *f, const struct wide_bloc
     const lanes e2 = lanes_sub(lanes_mul(x[1], y[0]), lanes_mul(y[1], x[0]));
     const lanes least = lanes_min(lanes_min(e0, e1), e2), most = lanes_max(lanes_max(e0, e1), e2);
     const lanes zero = lanes_all(0.0);
-    const uint32_t there = b->count - from < LANES ? (1u << (b->count - from)) - 1 : (1u << LANES) - 1;
-    uint32_t hit = (lanes_compare(least, zero, _CMP_GE_OQ) | lanes_compare(most, zero, _CMP_LE_OQ)) & there;
+    const uint32_t there =
+        b->count - from < LANES ? (1u << (b->count - from)) - 1 : (1u << LANES) - 1;
+    uint32_t hit =
+        (lanes_compare(least, zero, _CMP_GE_OQ) | lanes_compare(most, zero, _CMP_LE_OQ)) & there;
     if (__builtin_expect(hit == 0, 1))
         return false;
     const lanes det = lanes_add(lanes_add(e0, e1), e2);
@@ -107,6 +107,6 @@ test_lanes(const struct leaf_ray *l, struct wide_fast *f, const struct wide_bloc
         }
     }
     for (; __builtin_expect(slow != 0, 0) && !(any && better); slow &= slow - 1)
-        better |= wide_test_slowly(f, b, from + (uint32_t)__builtin_ctz(slow));
+        better |= accel_wide_test_slowly(f, b, from + (uint32_t)__builtin_ctz(slow));
     return better;
 }

@@ -80,7 +80,7 @@ static inline double coordinate(const struct wide_block *b, uint32_t i, uint32_t
                                    : (double)((const float *)data)[place];
 }
 
-/* May the triangle be hit? The same edge functions as triangle_hit, in the same order. */
+/* May the triangle be hit? The same edge functions as accel_triangle_hit, in the same order. */
 static inline bool may_hit(const struct leaf_ray *l, const struct wide_fast *f,
                            const struct wide_block *b, uint32_t i)
 {
@@ -102,7 +102,7 @@ static inline bool leaf_test(const struct leaf_ray *l, struct wide_fast *f,
     bool better = false;
     for (uint32_t i = 0; i < b->count && !(any && better); i++)
         if (may_hit(l, f, b, i))
-            better |= wide_test_slowly(f, b, i);
+            better |= accel_wide_test_slowly(f, b, i);
     return better;
 }
 
@@ -113,12 +113,12 @@ static bool works_here(void)
     return true;
 }
 
-const struct wide_isa wide_portable = {
+const struct wide_isa accel_wide_portable = {
     .name = "portable",
     .works_here = works_here,
     .rule = {.lanes = 2, .pool = false, .node_cost = 2.0},
     .closest = closest,
     .any = any,
     .walk = walk,
-    .find_box = wide_find_box,
+    .find_box = accel_wide_find_box,
 };

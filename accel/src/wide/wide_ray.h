@@ -2,34 +2,34 @@
  *
  * A ray as the fast walks of wide trees see it, and why they pass by nothing that matters.
  *
- * Scaled: org and the boxes are multiplied by the tree's scale, dir by a power of two that takes its
- * largest component into [1, 2). Both are exact but for underflow, which the padding covers, and so
- * t is multiplied by a power of two as well (`to_scaled`). Let u = 2^-24, v = 2^-53, P a plane of
- * the true padded boxes, T = (P - o) / d.
+ * Scaled: org and the boxes are multiplied by the tree's scale, dir by a power of two that takes
+ * its largest component into [1, 2). Both are exact but for underflow, which the padding covers,
+ * and so t is multiplied by a power of two as well (`to_scaled`). Let u = 2^-24, v = 2^-53, P a
+ * plane of the true padded boxes, T = (P - o) / d.
  *
  * The node's plane is p = P moved out by at least 2.12 u (WIDE_PAD), |p| <= 1 + 3u. cr is 1 / d cut
  * to 24 bits, exactly a float: |cr| = (1 - e0) / |d|, -v <= e0 <= 2u. c = float(-o cr). What is
  * computed is t = p cr + c, by a fused multiplication or by two roundings:
- *     t = (p cr (1 + e1) - o cr (1 + e2)) (1 + e3)             |e1|, |e3| <= u, |e2| <= u (1 + 2^-28)
- *       = cr ((p - o) (1 + e2) + p (e1 - e2)) (1 + e3)
- * so an error of p, at most 2.01 u |p|, which the padding is larger than, and relative errors else.
- * With n the near and f the far plane of an axis along which the ray goes up (down: mirrored):
+ *     t = (p cr (1 + e1) - o cr (1 + e2)) (1 + e3)             |e1|, |e3| <= u, |e2| <= u (1 +
+ * 2^-28) = cr ((p - o) (1 + e2) + p (e1 - e2)) (1 + e3) so an error of p, at most 2.01 u |p|, which
+ * the padding is larger than, and relative errors else. With n the near and f the far plane of an
+ * axis along which the ray goes up (down: mirrored):
  * - if P_n <= o then p_n - o <= -2.12 u (1 - 2u), and t_n <= 0; tmin is the greater;
  * - if P_n > o then 0 <= t_n <= T_n (1 + v) (1 + 1.01 u) (1 + u), or t_n < 0;
  * - if P_f >= o then t_f >= T_f (1 - 2u) (1 - 1.01 u) (1 - u) > 0.
  * So where S of the box is not empty and may matter, the greatest t_n, taken with tmin, exceeds the
- * least t_f, taken with the limit, by a factor of less than 1 + 6.1 u. Two floats that differ by less
- * than that are at most 13 steps apart, for a step is at least u of the larger: the comparison
+ * least t_f, taken with the limit, by a factor of less than 1 + 6.1 u. Two floats that differ by
+ * less than that are at most 13 steps apart, for a step is at least u of the larger: the comparison
  * allows WIDE_STEPS, which also covers the growth of S by 2^-50 and the limit's own rounding.
  *
  * Steep and parallel axes: |1 / d| counts as at most 2^60. Where the box holds o, t_n <= 0, and
- * t_f >= 2^60 * 2.1 u = 2^37 or so, while the axis of the largest component ends at (1 + |o|) / 1 <=
- * 2^33 at the latest, as |o| <= 2^32 (WIDE_FAR): the axis cuts nothing off. Where the box lies ahead,
- * t_n only becomes less. Rays from farther away take wide_walk.
+ * t_f >= 2^60 * 2.1 u = 2^37 or so, while the axis of the largest component ends at (1 + |o|) / 1
+ * <= 2^33 at the latest, as |o| <= 2^32 (WIDE_FAR): the axis cuts nothing off. Where the box lies
+ * ahead, t_n only becomes less. Rays from farther away take accel_wide_walk.
  *
- * Underflow and flushing to zero move o, d, c, p or t by at most 2^-126 or so; t_f is 2.1 u cr >= u or
- * more where it matters, and all other errors above are relative to it or to the padding, both of
- * which have 2^-26 of themselves to spare.
+ * Underflow and flushing to zero move o, d, c, p or t by at most 2^-126 or so; t_f is 2.1 u cr >= u
+ * or more where it matters, and all other errors above are relative to it or to the padding, both
+ * of which have 2^-26 of themselves to spare.
  */
 #ifndef ACCEL_WIDE_RAY_H
 #define ACCEL_WIDE_RAY_H
@@ -90,7 +90,8 @@ static inline float wide_limit(const struct wide_ray *r, double t)
     return scaled < 0x1p126 ? (float)scaled * (1.0f + 0x1p-21f) + 0x1p-126f : (float)INFINITY;
 }
 
-/* False if the ray must take wide_walk, which also refuses what is no ray. tmin >= 0 or NaN. */
+/* False if the ray must take accel_wide_walk, which also refuses what is no ray. tmin >= 0 or NaN.
+ */
 static inline bool wide_ray_from(struct wide_ray *r, const struct wide *w, const double org[3],
                                  const double dir[3], double tmin)
 {

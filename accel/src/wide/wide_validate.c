@@ -14,21 +14,22 @@ struct checker {
     const accel *a;
     const struct wide *w;
     accel_error *error;
-    uint8_t *seen;   /* by id: in a leaf */
-    uint64_t nodes;  /* visited so far */
-    uint64_t found;  /* primitives so far */
-    uint64_t sum;    /* over the vertices so far: see seal.h */
+    uint8_t *seen;  /* by id: in a leaf */
+    uint64_t nodes; /* visited so far */
+    uint64_t found; /* primitives so far */
+    uint64_t sum;   /* over the vertices so far: see seal.h */
 };
 
 static bool broken(const struct checker *c, const char *what, uint64_t number)
 {
-    error_set(c->error, ACCEL_BROKEN, "wide tree: %s %llu", what, (unsigned long long)number);
+    accel_error_set(c->error, ACCEL_BROKEN, "wide tree: %s %llu", what, (unsigned long long)number);
     return false;
 }
 
 static accel_box padded_box(const struct checker *c, const struct wide_block *b, unsigned i)
 {
-    return b->type == WIDE_LIST ? c->a->prims.box[wide_block_ids(b)[i]] : wide_triangle_box(b, i);
+    return b->type == WIDE_LIST ? c->a->prims.box[wide_block_ids(b)[i]]
+                                : accel_wide_triangle_box(b, i);
 }
 
 /* P', scaled, lies in the box. */
@@ -56,7 +57,7 @@ static bool check_block(struct checker *c, size_t at, const float lo[3], const f
         c->found++;
         if (b->type != WIDE_LIST) {
             double vertices[9];
-            wide_vertices(b, i, vertices);
+            accel_wide_vertices(b, i, vertices);
             c->sum += seal_primitive(id, vertices, 9);
         }
     }
@@ -83,7 +84,8 @@ static bool check(struct checker *c, uint32_t word, const float lo[3], const flo
 {
     if (word & WIDE_LEAF)
         return check_leaf(c, word, lo, hi);
-    if (depth >= c->w->depth || 16 * (size_t)word + sizeof(struct wide_node) > c->w->used || word % 4 != 0)
+    if (depth >= c->w->depth || 16 * (size_t)word + sizeof(struct wide_node) > c->w->used ||
+        word % 4 != 0)
         return broken(c, "out of range or too deep, node", word);
     if (c->nodes++ == c->w->nodes)
         return broken(c, "more nodes than were made:", c->w->nodes);
@@ -119,17 +121,17 @@ static bool check_all(struct checker *c)
     if (!check_seal(c) || !check(c, c->w->root, lo, hi, 0))
         return false;
     if (c->nodes != c->w->nodes || c->found != c->a->prims.bounded.count)
-        return broken(c, "primitives are missing or nodes are left over; primitives found:",
-                      c->found);
+        return broken(c,
+                      "primitives are missing or nodes are left over; primitives found:", c->found);
     return !c->a->fast || c->sum == c->a->prims.data_seal ||
            broken(c, "other triangles than were copied; of them", c->found);
 }
 
-bool wide_validate(const accel *a, const struct wide *w, accel_error *error)
+bool accel_wide_validate(const accel *a, const struct wide *w, accel_error *error)
 {
     struct checker c = {a, w, error, calloc(a->prims.count, 1), 0, 0, 0};
     if (!c.seen) {
-        error_set(error, ACCEL_NO_MEMORY, "validate: no memory for %u ids", a->prims.count);
+        accel_error_set(error, ACCEL_NO_MEMORY, "validate: no memory for %u ids", a->prims.count);
         return false;
     }
     const bool fine = check_all(&c);

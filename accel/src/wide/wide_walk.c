@@ -15,7 +15,7 @@
 #include "../environment.h"
 #include "../triangle.h"
 
-void wide_vertices(const struct wide_block *b, unsigned i, double out[9])
+void accel_wide_vertices(const struct wide_block *b, unsigned i, double out[9])
 {
     const void *data = wide_block_data(b);
     const unsigned n = b->count;
@@ -27,8 +27,8 @@ void wide_vertices(const struct wide_block *b, unsigned i, double out[9])
     const float *at = data;
     const uint8_t *corner = (const uint8_t *)(at + 3 * b->vertices);
     for (unsigned c = 0; c < 9; c++) {
-        const unsigned place =
-            b->type == WIDE_FLOATS ? c * n + i
+        const unsigned place = b->type == WIDE_FLOATS
+                                   ? c * n + i
                                    : c % 3 * b->vertices + corner[c / 3 * WIDE_BLOCK + i];
         out[c] = (double)at[place];
     }
@@ -53,11 +53,11 @@ __attribute__((noinline)) static void make_box(const double *vertices, accel_box
     *out = box_padded(&box);
 }
 
-accel_box wide_triangle_box(const struct wide_block *b, unsigned i)
+accel_box accel_wide_triangle_box(const struct wide_block *b, unsigned i)
 {
     double vertices[9];
     accel_box box;
-    wide_vertices(b, i, vertices);
+    accel_wide_vertices(b, i, vertices);
     if (is_plain()) {
         make_box(vertices, &box);
         return box;
@@ -73,7 +73,7 @@ static bool find_in_leaf(const struct wide_block *b, uint32_t id, accel_box *box
     for (;; b = wide_next_block(b)) {
         for (unsigned i = 0; i < b->count; i++) {
             if (wide_block_ids(b)[i] == id) {
-                *box = wide_triangle_box(b, i);
+                *box = accel_wide_triangle_box(b, i);
                 return true;
             }
         }
@@ -93,35 +93,34 @@ static bool find_below(const struct wide *w, uint32_t word, uint32_t id, accel_b
     return false;
 }
 
-bool wide_find_box(const struct wide *w, uint32_t id, accel_box *box)
+bool accel_wide_find_box(const struct wide *w, uint32_t id, accel_box *box)
 {
     return find_below(w, w->root, id, box);
 }
 
-static void test_triangle(struct query *q, const struct wide_block *b,
-                          unsigned i)
+static void test_triangle(struct query *q, const struct wide_block *b, unsigned i)
 {
     const uint32_t id = wide_block_ids(b)[i];
     double vertices[9], t, u, v;
     if (id == q->skip || !query_may_matter(q, id))
         return;
     q->tests++;
-    wide_vertices(b, i, vertices);
-    if (!q->point && !triangle_hit(q, vertices, &t, &u, &v))
+    accel_wide_vertices(b, i, vertices);
+    if (!q->point && !accel_triangle_hit(q, vertices, &t, &u, &v))
         return;
-    const accel_box box = wide_triangle_box(b, i);
+    const accel_box box = accel_wide_triangle_box(b, i);
     if (q->point)
-        query_offer_point(q, &box, id);
+        accel_query_offer_point(q, &box, id);
     else
-        query_offer(q, &box, id, t, u, v);
+        accel_query_offer(q, &box, id, t, u, v);
 }
 
-void wide_test_leaf(const struct wide *w, struct query *q, uint32_t word)
+void accel_wide_test_leaf(const struct wide *w, struct query *q, uint32_t word)
 {
     const struct wide_block *b = wide_leaf_at(w, word);
     for (;; b = wide_next_block(b)) {
         if (b->type == WIDE_LIST)
-            query_test_list(q, wide_block_ids(b), b->count);
+            accel_query_test_list(q, wide_block_ids(b), b->count);
         for (unsigned i = 0; i < b->count && b->type != WIDE_LIST && !query_done(q); i++)
             test_triangle(q, b, i);
         if (b->last || query_done(q))
@@ -163,7 +162,7 @@ static struct waiting *push(const struct wide *w, const struct wide_node *node, 
     return top;
 }
 
-void wide_walk(const struct wide *w, struct query *q)
+void accel_wide_walk(const struct wide *w, struct query *q)
 {
     struct waiting stack[WIDE_MAX_DEPTH * (WIDE - 1) + 2], *top = stack;
     *top++ = (struct waiting){-(double)INFINITY, w->root};
@@ -172,7 +171,7 @@ void wide_walk(const struct wide *w, struct query *q)
         if (at.begin > q->limit)
             continue;
         if (at.word & WIDE_LEAF) {
-            wide_test_leaf(w, q, at.word);
+            accel_wide_test_leaf(w, q, at.word);
             continue;
         }
         q->nodes++;
