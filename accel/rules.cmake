@@ -2,7 +2,7 @@
 # How everything that computes is compiled, whatever the flags around it: included by the folders
 # that hold it, for themselves and those below.
 #
-# Exactness rests on every operation being rounded on its own (accel/src/contract.h). -ffp-contract
+# Exactness rests on every operation being rounded on its own (accel/src/core/contract.h). -ffp-contract
 # comes last: clang's -fno-fast-math undoes it.
 set(CMAKE_C_STANDARD 11)
 set(CMAKE_C_STANDARD_REQUIRED ON)

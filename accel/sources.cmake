@@ -2,11 +2,11 @@
 # Sets `sources`, the files to compile, and `definitions`, for the kinds in ACCEL_KINDS.
 #
 # A part's files are src/PART.c, src/PART_*.c and src/PART/*.c; files of no part are always compiled.
-# A part may bear the name of a kind, such as octree, of which hoo is made too: src/octree.c itself is
+# A part may bear the name of a kind, such as octree, of which hoo is made too: src/kinds/octree.c itself is
 # then only compiled for that kind.
 set(kinds "")
 set(parts "")
-file(STRINGS src/kinds.h lines REGEX "^KIND\\(")
+file(STRINGS src/kinds/kinds.h lines REGEX "^KIND\\(")
 foreach(line IN LISTS lines)
     string(REGEX MATCHALL "[a-z]+" words "${line}")
     list(POP_FRONT words name)
@@ -40,12 +40,18 @@ foreach(name IN LISTS kinds)
     list(APPEND needed ${parts_of_${name}})
 endforeach()
 
-file(GLOB sources RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} CONFIGURE_DEPENDS src/*.c src/*/*.c)
+file(GLOB sources RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} CONFIGURE_DEPENDS src/*/*.c)
 foreach(source IN LISTS sources)
-    string(REGEX MATCH "^src/([a-z]+)(_?)" match ${source})
-    set(owner ${CMAKE_MATCH_1})
-    if((owner IN_LIST parts AND NOT owner IN_LIST needed) OR
-       (owner IN_LIST left AND NOT CMAKE_MATCH_2))
+    string(REGEX MATCH "^src/([a-z]+)/([a-z_]+)" match ${source})
+    if(CMAKE_MATCH_1 STREQUAL "kinds")
+        set(unwanted ${left})
+        set(owner ${CMAKE_MATCH_2})
+    else()
+        set(unwanted ${parts})
+        list(REMOVE_ITEM unwanted "" ${needed})
+        set(owner ${CMAKE_MATCH_1})
+    endif()
+    if(owner IN_LIST unwanted)
         list(REMOVE_ITEM sources ${source})
     endif()
 endforeach()

@@ -4,9 +4,9 @@
  * rays, and how far `auto` is from the best choice. This file reads what is asked for and makes the
  * contenders; bench_rays.c makes the rays, bench_run.c judges and times, bench_table.c prints.
  */
-#include "bench.h"
+#include "bench/bench.h"
 #include "commands.h"
-#include "machine.h"
+#include "tool/machine.h"
 
 #include <inttypes.h>
 #include <stdio.h>

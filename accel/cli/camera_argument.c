@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "camera_argument.h"
 
-#include "image.h"
-#include "words.h"
+#include "tool/image.h"
+#include "tool/words.h"
 
 #include <string.h>
 

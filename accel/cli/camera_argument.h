@@ -5,9 +5,9 @@
 #ifndef ACCEL_CLI_CAMERA_ARGUMENT_H
 #define ACCEL_CLI_CAMERA_ARGUMENT_H
 
-#include "camera.h"
-#include "options.h"
-#include "scene.h"
+#include "scenes/camera.h"
+#include "tool/options.h"
+#include "scenes/scene.h"
 
 /* Makes the camera; NULL stands for 640x480, and for one that frames the scene with 40 degrees.
  * Otherwise complains and returns false. */

@@ -2,11 +2,11 @@
  *
  * accel check: does every structure answer as linear does, bit for bit?
  */
-#include "check.h"
+#include "check/check.h"
 
 #include "commands.h"
-#include "crew.h"
-#include "ray_text.h"
+#include "tool/crew.h"
+#include "scenes/ray_text.h"
 
 #include <stdio.h>
 #include <stdlib.h>

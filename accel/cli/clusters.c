@@ -4,8 +4,8 @@
  * that of its whole build. Per primitive it should stay level as scenes grow.
  */
 #include "commands.h"
-#include "machine.h"
-#include "quantile.h"
+#include "tool/machine.h"
+#include "tool/quantile.h"
 #include "structure.h"
 
 #include <inttypes.h>

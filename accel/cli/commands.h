@@ -5,7 +5,7 @@
 #ifndef ACCEL_CLI_COMMANDS_H
 #define ACCEL_CLI_COMMANDS_H
 
-#include "options.h"
+#include "tool/options.h"
 
 extern const struct command command_kinds;
 extern const struct command command_info;

@@ -3,9 +3,9 @@
  * accel diff: do two OpenEXR files of hits agree in every bit of every channel?
  */
 #include "commands.h"
-#include "image.h"
+#include "tool/image.h"
 #include "structure.h"
-#include "words.h"
+#include "tool/words.h"
 
 #include <inttypes.h>
 #include <stdlib.h>

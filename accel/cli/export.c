@@ -3,7 +3,7 @@
  * accel export: a scene as a file for POV-Ray to include. See sdl.c for what is written.
  */
 #include "commands.h"
-#include "output.h"
+#include "tool/output.h"
 #include "sdl.h"
 #include "structure.h"
 

@@ -4,7 +4,7 @@
  * tables that their parsers use.
  */
 #include "commands.h"
-#include "scene.h"
+#include "scenes/scene.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -7,10 +7,10 @@
  * The render: primary, bounce and shadow rays of bench_rays.c in turn. Pixels come in random order,
  * which is the worst that can happen to a lazy build: the first rays go everywhere.
  */
-#include "bench.h"
+#include "bench/bench.h"
 #include "commands.h"
-#include "machine.h"
-#include "quantile.h"
+#include "tool/machine.h"
+#include "tool/quantile.h"
 
 #include <inttypes.h>
 #include <stdio.h>

@@ -5,7 +5,7 @@
  * Exit codes: 0 fine, 1 a difference was found, 2 bad usage or input.
  */
 #include "commands.h"
-#include "words.h"
+#include "tool/words.h"
 
 #include <accel/accel.h>
 #include <errno.h>

@@ -3,9 +3,9 @@
  * accel photons: its arguments.
  */
 #include "commands.h"
-#include "crew.h"
-#include "photons_request.h"
-#include "words.h"
+#include "tool/crew.h"
+#include "photons/photons_request.h"
+#include "tool/words.h"
 
 #include <string.h>
 

@@ -3,8 +3,8 @@
  * accel report: its arguments, the sections in their order, the folder at the end.
  */
 #include "commands.h"
-#include "report.h"
-#include "words.h"
+#include "report/report.h"
+#include "tool/words.h"
 
 #include <errno.h>
 #include <string.h>

@@ -5,7 +5,7 @@
 #ifndef ACCEL_CLI_SDL_H
 #define ACCEL_CLI_SDL_H
 
-#include "scene.h"
+#include "scenes/scene.h"
 
 #include <stdio.h>
 

@@ -6,11 +6,11 @@
 #ifndef ACCEL_CLI_STRUCTURE_H
 #define ACCEL_CLI_STRUCTURE_H
 
-#include "forms.h"
-#include "options.h"
-#include "output.h"
-#include "progress.h"
-#include "scene.h"
+#include "bench/forms.h"
+#include "tool/options.h"
+#include "tool/output.h"
+#include "tool/progress.h"
+#include "scenes/scene.h"
 
 enum { MOST_CONFIGS = 64 };
 

@@ -8,7 +8,7 @@
  * reflectance 0.5, the photons and the gaps of table 1, the leaf size of table 2.
  */
 #include "commands.h"
-#include "tables.h"
+#include "tables/tables.h"
 
 #include <inttypes.h>
 #include <stdio.h>

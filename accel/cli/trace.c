@@ -2,12 +2,12 @@
  *
  * accel trace: hits of a camera or of a file of rays, as OpenEXR, PNG or text.
  */
-#include "trace.h"
+#include "trace/trace.h"
 
 #include "camera_argument.h"
 #include "commands.h"
-#include "crew.h"
-#include "words.h"
+#include "tool/crew.h"
+#include "tool/words.h"
 
 #include <stdlib.h>
 #include <string.h>

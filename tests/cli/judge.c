@@ -4,9 +4,9 @@
  * and whole checks are run with a judge that was built over a scene in which one vertex lies one
  * ulp elsewhere, one primitive is missing, or ties go to another primitive.
  */
-#include "check.h"
+#include "check/check.h"
 
-#include "ray_text.h"
+#include "scenes/ray_text.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -4,8 +4,8 @@
  * interrupted in turn by a signal, and ended in turn by SIGKILL: the old content is there, or the
  * new one, whole. tests/cli/output.sh has the same from outside, through the command.
  */
-#include "output.h"
-#include "report_folder.h"
+#include "tool/output.h"
+#include "report/report_folder.h"
 
 #include <dirent.h>
 #include <errno.h>

@@ -3,7 +3,7 @@
  * Would a broken structure show in accel report? Structures that lie on purpose, each in another
  * way, are examined beside honest ones.
  */
-#include "report_exam.h"
+#include "report/report_exam.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -12,7 +12,7 @@ root=$here/../..
 # compile FLAG...
 compile() {
     quietly "$compiler $*" "$compiler" -O3 -march=native -Wall -Wextra -Wpedantic -Werror "$@" \
-        "-I$root/accel/include" "$here/host.c" "$root"/accel/src/*.c "$root"/accel/src/*/*.c \
+        "-I$root/accel/include" "$here/host.c" "$root"/accel/src/*/*.c \
         -o "$work/host" -lm -lpthread
 }
 

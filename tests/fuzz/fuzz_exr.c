@@ -10,7 +10,7 @@
 
 #include <OpenEXR/openexr.h>
 
-#include "exr_decode.h"
+#include "tool/exr_decode.h"
 #include "fuzz.h"
 
 /* What fresh memory holds: another byte each time, so that what was never written is seen. */

@@ -10,8 +10,8 @@
 #include <string.h>
 
 #include "fuzz.h"
-#include "ray_lines.h"
-#include "ray_text.h"
+#include "scenes/ray_lines.h"
+#include "scenes/ray_text.h"
 
 static bool is_separator(char c)
 {

@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "box.h"
-#include "cluster.h"
+#include "core/box.h"
+#include "cluster/cluster.h"
 #include "cmocka_all.h"
 #include "dice.h"
 

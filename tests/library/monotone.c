@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "boxtree.h"
+#include "hoo/boxtree.h"
 #include "cmocka_all.h"
 #include "compare.h"
 #include "modes.h"

@@ -11,7 +11,7 @@
 #include "cmocka_all.h"
 #include "compare.h"
 #include "modes.h"
-#include "number.h"
+#include "core/number.h"
 
 /* The second has a decimal comma, the third one of two bytes. */
 static const char *const locales[] = {"C", "de_DE.UTF-8", "ps_AF.UTF-8"};

@@ -5,8 +5,8 @@
  * spread over seeds where they are not; each test also demands that the error itself is small, so
  * that a wide bound cannot hide a miss.
  */
-#include "photons.h"
-#include "plates.h"
+#include "photons/photons.h"
+#include "scenes/plates.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -11,7 +11,7 @@
 // Declare=Total=N   triangles in the scene
 // Declare=Scene=S   0: cubes.inc with Declare=Gap=X; 1: triangles.inc, as accel export --as triangles
 // Declare=Eye_X=X and so on, At_X, Fov, Columns, Rows: the camera of accel trace, whose formula
-//                   stands in accel/cli/camera.h and below, in the same order in double
+//                   stands in accel/cli/scenes/camera.h and below, in the same order in double
 // Traces a ray for each pixel, and from each of their hits one more in a direction of its own.
 // Writes rays.txt, "ORIGIN DIRECTION TMIN TMAX" for accel trace --rays, and hits.txt, on the same
 // line the point and the number of the triangle, in 20 digits, or "miss".

@@ -11,8 +11,8 @@
 #ifndef ACCEL_CLI_MESH_MESH_H
 #define ACCEL_CLI_MESH_MESH_H
 
-#include "file.h"
-#include "scene.h"
+#include "tool/file.h"
+#include "scenes/scene.h"
 
 /* Reads the file `name` from the folder of the mesh file. Otherwise fills error->text. */
 typedef bool mesh_beside(void *user, struct file *file, const char *name, accel_error *error);

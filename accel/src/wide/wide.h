@@ -20,8 +20,8 @@
 #ifndef ACCEL_WIDE_H
 #define ACCEL_WIDE_H
 
-#include "../kind.h"
-#include "../query.h"
+#include "../core/kind.h"
+#include "../primitive/query.h"
 
 /* Children of a node at most; levels of a tree at most; primitives of a block at most. */
 enum { WIDE = 16, WIDE_MAX_DEPTH = 96, WIDE_BLOCK = 8 };

@@ -6,9 +6,9 @@
 
 #include <immintrin.h>
 
-#include "../contract.h"
-#include "../kind.h"
-#include "../query.h"
+#include "../core/contract.h"
+#include "../core/kind.h"
+#include "../primitive/query.h"
 #include "wide_isa.h"
 
 #if defined(__clang__)

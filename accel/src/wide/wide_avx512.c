@@ -7,9 +7,9 @@
 
 #include <immintrin.h>
 
-#include "../contract.h"
-#include "../kind.h"
-#include "../query.h"
+#include "../core/contract.h"
+#include "../core/kind.h"
+#include "../primitive/query.h"
 #include "wide_isa.h"
 
 #define FEATURES "avx512f,avx512vl,avx512dq,avx512bw,avx2,fma,bmi,lzcnt,popcnt"

@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-#include "../box.h"
+#include "../core/box.h"
 
 /* Coordinates up to here leave all edge functions finite: see wide_leaf.h. */
 #define FAST_COORDINATE 0x1p300

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../seal.h"
+#include "../core/seal.h"
 
 /* Vertices that a block's triangles may share, and bytes behind the last block: loads of full
  * registers end there at the latest. */

@@ -18,7 +18,7 @@
 
 #include <string.h>
 
-#include "../cluster.h"
+#include "../cluster/cluster.h"
 
 /* Bins an axis; the largest range that is sorted instead; most primitives of a leaf; items between
  * two ticks, and those that could be looked at in the time that a leaf takes. */

@@ -5,8 +5,8 @@
  */
 #include "wide_isa.h"
 
-#include "../box.h"
-#include "../triangle.h"
+#include "../core/box.h"
+#include "../primitive/triangle.h"
 
 #if defined(__x86_64__) && defined(__GNUC__)
 #define X86 1

@@ -6,8 +6,8 @@
 
 #include <stdlib.h>
 
-#include "../box.h"
-#include "../seal.h"
+#include "../core/box.h"
+#include "../core/seal.h"
 
 /* What is the same for all nodes. */
 struct checker {

@@ -11,9 +11,9 @@
 #include <xmmintrin.h>
 #endif
 
-#include "../box.h"
-#include "../environment.h"
-#include "../triangle.h"
+#include "../core/box.h"
+#include "../core/environment.h"
+#include "../primitive/triangle.h"
 
 void accel_wide_vertices(const struct wide_block *b, unsigned i, double out[9])
 {

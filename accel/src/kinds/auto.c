@@ -1,0 +1,288 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * auto: picks a kind for the scene, then is that kind.
+ *
+ * Method: build every kind over a sample of the scene (auto_sample.h), trace a pilot of rays
+ * through each, count nodes, tests and calls of host objects, and predict
+ *
+ *     time = build(n) + rays * (ray + node * nodes + test * tests + miss * (nodes + tests)
+ *                               + call * calls)
+ *
+ * with the kind's cost figures (kind.h) and the way its counts grow from the sample's size to n.
+ * Counts, not clocks, so the choice is the same on every machine and run. The selector's idea is
+ * from Subramanian and Fussell, "Automatic Termination Criteria for Ray Tracing Hierarchies", GI
+ * 1991, and Hapala, Karlik and Havran, "When It Makes Sense to Use Uniform Grids for Ray Tracing",
+ * 2011: build, measure, decide.
+ *
+ * The pilot: the host's rays where it gives some (accel_hooks.pilot), else rays from random points
+ * of a box three times as large as the scene's towards random points of that; and from what those
+ * hit, rays in random directions: what a path tracer or photon map will ask.
+ *
+ * Cost: some tens of milliseconds, whatever the scene. Bad at: scenes whose structure a sample does
+ * not show; hosts whose later rays are unlike the pilot.
+ */
+#include "../auto/auto_sample.h"
+#include "../core/config.h"
+#include "../core/number.h"
+
+#include <stdio.h>
+
+/* First rays of the pilot; of more that the host gives, every so many-th. */
+enum { PILOT = 256 };
+
+/* Below this many seconds of predicted linear search, choosing costs more than it can save. */
+#define WORTH_CHOOSING 0.005
+
+/* Nanoseconds that a node or a test waits for memory, for each doubling of the structure's bytes
+ * beyond CACHE. Fitted with the kinds' figures to 24 scenes of up to 130 MB. */
+#define MISS  4.0
+#define CACHE 2e6
+
+/* Nanoseconds of one call of a host's object, if the host does not say. */
+#define CALL 100.0
+
+enum { RAYS };
+
+static const accel_option options[] = {
+    [RAYS] = {.key = "rays",
+              .meaning = "how many rays will come: few favour a cheap build",
+              .min = 0,
+              .max = 1e15,
+              .standard = 1e7},
+};
+
+/* What is known of one kind. */
+struct candidate {
+    const struct accel_kind *kind;
+    double nodes, tests, calls; /* per ray of the pilot */
+    double bytes;               /* per primitive of the sample */
+    double seconds;             /* predicted for the whole scene */
+};
+
+/* What is the same for all kinds. */
+struct chooser {
+    struct build *build;
+    struct sample sample;
+    double triangles; /* share of the primitives */
+    double call;      /* nanoseconds of a call of an object, mean */
+    struct candidate tried[MAX_KINDS];
+    size_t count; /* of them */
+};
+
+/* ------------------------------------------------------------------------- pilot ---- */
+
+/* The i-th number of a fixed sequence in [0, 1): Steele, Lea and Flood's SplitMix, OOPSLA 2014. */
+static double uniform(uint64_t i)
+{
+    uint64_t z = (i + 1) * 0x9e3779b97f4a7c15u;
+    z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ z >> 27) * 0x94d049bb133111ebu;
+    return (double)((z ^ z >> 31) >> 11) * 0x1p-53;
+}
+
+/* First ray i of the pilot when nobody gives one. */
+static accel_ray line(const accel_box *box, uint64_t i)
+{
+    double from[3], dir[3];
+    for (int k = 0; k < 3; k++) {
+        const double size = box->hi[k] - box->lo[k];
+        from[k] = box->lo[k] - size + 3.0 * uniform(9 * i + (uint64_t)k) * size;
+        dir[k] = box->lo[k] + uniform(9 * i + 3 + (uint64_t)k) * size - from[k];
+    }
+    return accel_ray_from(from, dir);
+}
+
+static size_t pilot_count(const accel_hooks *hooks)
+{
+    return hooks->pilot_count > 0 && hooks->pilot_count < PILOT ? hooks->pilot_count : PILOT;
+}
+
+static accel_ray first_ray(const struct chooser *c, size_t i)
+{
+    const accel_hooks *hooks = c->build->hooks;
+    if (hooks->pilot_count == 0)
+        return line(&c->sample.box, i);
+    accel_ray ray = hooks->pilot[i * hooks->pilot_count / pilot_count(hooks)];
+    ray.skip = (accel_id){ACCEL_NONE, ACCEL_NONE}; /* it names a primitive of the scene */
+    return ray;
+}
+
+/* Traces the pilot; fills in the counts. */
+static void fly_pilot(struct chooser *c, const accel *a, struct candidate *kind)
+{
+    accel_query q = {0};
+    const size_t count = pilot_count(c->build->hooks);
+    double rays = 0.0;
+    c->sample.calls = 0;
+    for (size_t i = 0; i < count; i++, rays++) {
+        const accel_ray ray = first_ray(c, i);
+        accel_hit hit;
+        if (!accel_closest(a, &ray, &hit, &q))
+            continue;
+        double from[3], dir[3];
+        for (int k = 0; k < 3; k++) {
+            from[k] = ray.org[k] + hit.t * ray.dir[k];
+            dir[k] = uniform(9 * i + 6 + (uint64_t)k) - 0.5;
+        }
+        accel_ray next = accel_ray_from(from, dir);
+        next.skip = (accel_id){hit.geom, hit.prim};
+        accel_closest(a, &next, &hit, &q);
+        rays++;
+    }
+    kind->nodes = (double)q.nodes / rays;
+    kind->tests = (double)q.tests / rays;
+    kind->calls = (double)c->sample.calls / rays;
+}
+
+/* -------------------------------------------------------------------- prediction ---- */
+
+/* How a count grows when the primitives grow from `from` to `to`. */
+static double growth(enum kind_growth how, double from, double to)
+{
+    switch (how) {
+    case GROWS_LIKE_LOG:
+        return log2(to + 2) / log2(from + 2);
+    case GROWS_LIKE_FIFTH_ROOT:
+        return pow(to / from, 0.2);
+    case GROWS_LIKE_N:
+        break;
+    }
+    return to / from;
+}
+
+/* Nanoseconds of a ray. */
+static double predict_ray(const struct chooser *c, const struct candidate *k)
+{
+    const struct kind_cost *cost = &k->kind->cost;
+    const double n = (double)c->build->a->prims.bounded.count, from = (double)c->sample.count;
+    const double grown = growth(cost->growth, from, n);
+    const double joined = n > from ? (double)c->sample.joined / from : 0.0;
+    const double mesh = 1.0 - joined * (1.0 - cost->mesh);
+    const double nodes = k->nodes * mesh * grown;
+    const double tests = k->tests * mesh * (cost->growth == GROWS_LIKE_N ? grown : 1.0);
+    const double test = c->triangles * cost->triangle + (1.0 - c->triangles) * cost->other;
+    const double miss = MISS * log2(1.0 + k->bytes * n / CACHE);
+    return cost->ray + (cost->node + miss) * nodes + (test + miss) * tests + c->call * k->calls;
+}
+
+static double predict(const struct chooser *c, const struct candidate *k)
+{
+    const double n = (double)c->build->a->prims.bounded.count;
+    const double rays = c->build->a->option[RAYS];
+    return 1e-9 * (k->kind->cost.build * n * log2(n + 2) + rays * predict_ray(c, k));
+}
+
+/* What the scene is made of. */
+static void weigh_primitives(struct chooser *c)
+{
+    const struct primitives *p = &c->build->a->prims;
+    double triangles = 0.0, objects = 0.0, calls = 0.0;
+    for (uint32_t g = 0; g < p->geometry_count; g++) {
+        const struct geometry *geometry = &p->geometry[g];
+        if (geometry->type == ACCEL_TRIANGLES)
+            triangles += geometry->count;
+        if (geometry->type == ACCEL_OBJECTS) {
+            objects += geometry->count;
+            calls += geometry->count * (geometry->cost > 0.0 ? geometry->cost : CALL);
+        }
+    }
+    c->triangles = triangles / p->count;
+    c->call = objects > 0.0 ? calls / objects : 0.0;
+}
+
+/* ------------------------------------------------------------------------ choice ---- */
+
+static bool try_kind(struct chooser *c, struct candidate *k)
+{
+    accel *a;
+    struct build *build = c->build;
+    struct memory *m = &build->a->memory;
+    const accel_hooks hooks = {.user = build->hooks->user, .resize = build->hooks->resize};
+    if (accel_build(&a, &c->sample.scene, k->kind->info.name, &hooks, build->error) != ACCEL_OK)
+        return false;
+    fly_pilot(c, a, k);
+    k->bytes = (double)a->memory.bytes / (double)c->sample.count;
+    m->peak = m->bytes + a->memory.peak > m->peak ? m->bytes + a->memory.peak : m->peak;
+    accel_free(a);
+    k->seconds = predict(c, k);
+    return true;
+}
+
+/* Tries all kinds that may be chosen; the best comes first. */
+static bool try_kinds(struct chooser *c)
+{
+    size_t all = 0;
+    while (accel_kind_list[all])
+        all++;
+    for (size_t i = 0; i < all; i++) {
+        struct candidate k = {.kind = (const struct accel_kind *)accel_kind_list[i]};
+        if (k.kind->choose)
+            continue;
+        if (!try_kind(c, &k))
+            return false;
+        size_t at = c->count++;
+        for (; at > 0 && k.seconds < c->tried[at - 1].seconds; at--)
+            c->tried[at] = c->tried[at - 1];
+        c->tried[at] = k;
+        if (!accel_build_tick(c->build, (double)(i + 1) / (double)all))
+            return false;
+    }
+    return true;
+}
+
+/* Rounded to tenths. */
+static struct number_text tenths(double x)
+{
+    return accel_number_text(floor(10.0 * x + 0.5) / 10.0, 15);
+}
+
+/* Says what was chosen and why. */
+static void explain(const struct chooser *c)
+{
+    const struct candidate *best = &c->tried[0];
+    const bool given = c->build->hooks->pilot_count > 0;
+    accel_build_note(c->build,
+                     "auto: %s; pilot of %zu %s and what leaves their hits: %s nodes, %s "
+                     "tests, %s calls each",
+                     best->kind->info.name, pilot_count(c->build->hooks),
+                     given ? "rays of the host" : "lines of its own", tenths(best->nodes).at,
+                     tenths(best->tests).at, tenths(best->calls).at);
+    char list[120];
+    int used = 0;
+    for (size_t i = 0; i < c->count && used < (int)sizeof list; i++)
+        used += snprintf(list + used, sizeof list - (size_t)used, " %s %s",
+                         c->tried[i].kind->info.name, accel_number_text(c->tried[i].seconds, 3).at);
+    accel_build_note(c->build, "auto: seconds for %s rays:%s",
+                     accel_number_text(c->build->a->option[RAYS], 6).at, list);
+}
+
+static bool choose(struct build *build, const struct accel_kind **kind)
+{
+    const struct accel_kind *linear = (const struct accel_kind *)accel_kind_list[0];
+    const double rays = build->a->option[RAYS], n = (double)build->a->prims.bounded.count;
+    struct chooser c = {.build = build};
+    *kind = linear;
+    weigh_primitives(&c);
+    if (1e-9 * rays * n * linear->cost.triangle < WORTH_CHOOSING) {
+        accel_build_note(build,
+                         "auto: linear; %s rays over %s primitives do not pay for a structure",
+                         accel_number_text(rays, 6).at, accel_number_text(n, 6).at);
+        return true;
+    }
+    const bool fine = accel_sample_take(build, &c.sample) && try_kinds(&c);
+    accel_sample_free(&build->a->memory, &c.sample);
+    if (!fine)
+        return false;
+    *kind = c.tried[0].kind;
+    explain(&c);
+    return true;
+}
+
+const struct accel_kind accel_auto_kind = {
+    .info = {.name = "auto",
+             .summary = "the kind with the lowest predicted time for this scene",
+             .options = options,
+             .option_count = sizeof options / sizeof *options},
+    .size = sizeof(accel),
+    .choose = choose,
+};
