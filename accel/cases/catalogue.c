@@ -126,7 +126,7 @@ const struct scene_maker *scene_maker_find(const char *name)
 
 void scene_make(struct test_scene *s, const struct scene_maker *maker, uint64_t seed)
 {
-    struct dice d = dice_from(seed, 1);
+    struct rng d = rng_from(seed, 1);
     scene_open(s);
     maker->make(s, &d, maker->param);
     scene_close(s);

@@ -8,14 +8,14 @@
 #ifndef CASES_CATALOGUE_H
 #define CASES_CATALOGUE_H
 
-#include "dice.h"
+#include "rng.h"
 #include "case_scene.h"
 
 struct scene_maker {
     const char *test;    /* "slivers" */
     const char *name;    /* unique, one word */
     const char *meaning; /* one line */
-    void (*make)(struct test_scene *s, struct dice *d, double param);
+    void (*make)(struct test_scene *s, struct rng *d, double param);
     double param;
     uint32_t rays;     /* at intensity 1 */
     uint32_t variants; /* that many scenes from as many seeds; 0 stands for 1 */
@@ -35,7 +35,7 @@ struct ray_family {
     const char *name;    /* unique, one word */
     const char *meaning; /* one line */
     /* The i-th ray. `judge` is a linear structure over the scene. */
-    accel_ray (*make)(const struct test_scene *s, const accel *judge, struct dice *d, uint64_t i);
+    accel_ray (*make)(const struct test_scene *s, const accel *judge, struct rng *d, uint64_t i);
     uint32_t rays;             /* at intensity 1, over all its scenes */
     const char *const *scenes; /* the names of scenes that it is made for, NULL-ended */
 };
@@ -50,17 +50,17 @@ double test_intensity(void);
 /* count * intensity, at least 1. */
 uint64_t scaled_count(uint64_t count);
 
-/* Is the i-th of many tried? Below intensity 1 only that share of them is, the first in any case. */
+/* Is the i-th of many tried? Below intensity 1 only that share of them is, the first in any case.
+ */
 bool takes_turn(uint64_t i);
 
 /* The generators, by file. */
-typedef void make_scene(struct test_scene *s, struct dice *d, double param);
+typedef void make_scene(struct test_scene *s, struct rng *d, double param);
 make_scene make_soup, make_log_sizes, make_scaled, make_shifted, make_slivers, make_stadium,
     make_huge_and_tiny, make_mixed; /* soups.c */
 make_scene make_degenerate, make_coincident, make_nested, make_series, make_few, make_all_invalid,
-    make_empty; /* limits.c */
-make_scene make_skinny, make_slab, make_collision, make_pyramid,
-    make_quantised; /* reported.c */
+    make_empty;                                                                  /* limits.c */
+make_scene make_skinny, make_slab, make_collision, make_pyramid, make_quantised; /* reported.c */
 make_scene make_lattice, make_ball_mesh, make_split_square, make_terrain, make_fan, make_stack,
     make_twins, make_exotic; /* meshes.c */
 
@@ -68,6 +68,6 @@ make_scene make_lattice, make_ball_mesh, make_split_square, make_terrain, make_f
 void ball_mesh(struct part *p, const double centre[3], double radius, int levels);
 
 /* A triangle with a random corner in the unit cube and edges of about `edge`. */
-void random_triangle(struct part *p, struct dice *d, double edge);
+void random_triangle(struct part *p, struct rng *d, double edge);
 
 #endif

@@ -66,19 +66,19 @@ uint32_t lattice_crossings(const struct test_scene *s, const struct line *l, boo
     return count;
 }
 
-accel_ray lattice_line(const struct test_scene *s, struct dice *d, struct line *l)
+accel_ray lattice_line(const struct test_scene *s, struct rng *d, struct line *l)
 {
     double org[3], dir[3];
     bool zero = true;
     for (int k = 0; k < 3; k++) {
         const uint32_t cells = 2 * ((uint32_t)(s->box.hi[k] - s->box.lo[k]) + 4);
-        l->org[k] = 2 * (int64_t)(s->box.lo[k] - 2) + (int64_t)dice_below(d, cells);
-        l->dir[k] = dice_chance(d, 0.35) ? 0 : 1 << dice_below(d, 4);
-        if (dice_chance(d, 0.5))
+        l->org[k] = 2 * (int64_t)(s->box.lo[k] - 2) + (int64_t)rng_below(d, cells);
+        l->dir[k] = rng_chance(d, 0.35) ? 0 : 1 << rng_below(d, 4);
+        if (rng_chance(d, 0.5))
             l->dir[k] = -l->dir[k];
         zero = zero && l->dir[k] == 0;
         org[k] = (double)l->org[k] / 2;
-        dir[k] = l->dir[k] ? (double)l->dir[k] : dice_chance(d, 0.5) ? 0.0 : -0.0;
+        dir[k] = l->dir[k] ? (double)l->dir[k] : rng_chance(d, 0.5) ? 0.0 : -0.0;
     }
     if (zero) {
         l->dir[1] = 1;
@@ -87,12 +87,12 @@ accel_ray lattice_line(const struct test_scene *s, struct dice *d, struct line *
     return accel_ray_from(org, dir);
 }
 
-accel_ray lattice_line_on(const struct test_scene *s, struct dice *d, struct line *l)
+accel_ray lattice_line_on(const struct test_scene *s, struct rng *d, struct line *l)
 {
     accel_ray ray = lattice_line(s, d, l);
-    const struct part *p = &s->part[dice_below(d, s->count)];
-    const double *t = p->data + 9 * (size_t)dice_below(d, p->count);
-    const uint32_t i = dice_below(d, 3), j = dice_chance(d, 0.5) ? i : (i + 1) % 3;
+    const struct part *p = &s->part[rng_below(d, s->count)];
+    const double *t = p->data + 9 * (size_t)rng_below(d, p->count);
+    const uint32_t i = rng_below(d, 3), j = rng_chance(d, 0.5) ? i : (i + 1) % 3;
     for (uint32_t k = 0; k < 3; k++) {
         l->org[k] = (int64_t)(t[3 * i + k] + t[3 * j + k]);
         ray.org[k] = (double)l->org[k] / 2;

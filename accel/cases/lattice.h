@@ -8,7 +8,7 @@
 #define CASES_LATTICE_H
 
 #include "case_scene.h"
-#include "dice.h"
+#include "rng.h"
 
 /* Twice the coordinates, so that half integers are integers. */
 struct line {
@@ -22,10 +22,10 @@ struct crossing {
 };
 
 /* A random line through the box of a scene or past it, as integers and as a ray. */
-accel_ray lattice_line(const struct test_scene *s, struct dice *d, struct line *l);
+accel_ray lattice_line(const struct test_scene *s, struct rng *d, struct line *l);
 
 /* The same from a corner of a triangle or from the middle of one of its edges. */
-accel_ray lattice_line_on(const struct test_scene *s, struct dice *d, struct line *l);
+accel_ray lattice_line_on(const struct test_scene *s, struct rng *d, struct line *l);
 
 /* A ray from half integers along integers, as integers. */
 struct line lattice_line_of(const accel_ray *ray);

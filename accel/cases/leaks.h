@@ -8,13 +8,13 @@
 #define CASES_LEAKS_H
 
 #include "case_scene.h"
-#include "dice.h"
+#include "rng.h"
 
 /* Which targets count: those of an open mesh must be inside its border. */
 typedef bool is_target(const double at[3]);
 
 /* Where a ray to a target starts. */
-typedef void start(struct dice *d, const struct test_scene *s, const double at[3], double org[3]);
+typedef void start(struct rng *d, const struct test_scene *s, const double at[3], double org[3]);
 
 /* A mesh and how it is shot at. */
 struct leak_mesh {
@@ -39,7 +39,7 @@ void leak_make(struct test_scene *s, const struct leak_mesh *m, uint64_t seed);
 enum { LEAK_ROUNDS = 7 };
 
 /* The i-th ray: at triangle i % n of n, in round i / n. False: its target does not count. */
-bool leak_ray(const struct leak_mesh *m, const struct test_scene *s, struct dice *d, uint64_t i,
+bool leak_ray(const struct leak_mesh *m, const struct test_scene *s, struct rng *d, uint64_t i,
               accel_ray *ray);
 
 #endif

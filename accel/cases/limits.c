@@ -6,7 +6,7 @@
 
 #include <float.h>
 
-void make_empty(struct test_scene *s, struct dice *d, double parts)
+void make_empty(struct test_scene *s, struct rng *d, double parts)
 {
     (void)d;
     for (int i = 0; i < (int)parts; i++)
@@ -28,7 +28,7 @@ static void add_one(struct part *p)
 }
 
 /* `code` is 10 * type + count. */
-void make_few(struct test_scene *s, struct dice *d, double code)
+void make_few(struct test_scene *s, struct rng *d, double code)
 {
     (void)d;
     struct part *p = scene_part(s, (accel_type)(code / 10));
@@ -36,7 +36,7 @@ void make_few(struct test_scene *s, struct dice *d, double code)
         add_one(p);
 }
 
-void make_coincident(struct test_scene *s, struct dice *d, double count)
+void make_coincident(struct test_scene *s, struct rng *d, double count)
 {
     (void)d;
     struct part *p = scene_part(s, ACCEL_TRIANGLES);
@@ -45,7 +45,7 @@ void make_coincident(struct test_scene *s, struct dice *d, double count)
 }
 
 /* Radii 2^-1 .. 2^-998: the padded boxes of the last are still normal numbers. */
-void make_nested(struct test_scene *s, struct dice *d, double type)
+void make_nested(struct test_scene *s, struct rng *d, double type)
 {
     (void)d;
     struct part *p = scene_part(s, type == 0   ? ACCEL_SPHERES
@@ -65,7 +65,7 @@ void make_nested(struct test_scene *s, struct dice *d, double type)
     }
 }
 
-void make_series(struct test_scene *s, struct dice *d, double count)
+void make_series(struct test_scene *s, struct rng *d, double count)
 {
     (void)d;
     struct part *p = scene_part(s, ACCEL_TRIANGLES);
@@ -80,26 +80,26 @@ void make_series(struct test_scene *s, struct dice *d, double count)
 }
 
 /* A number that makes what it is in invalid. */
-static double bad_number(struct dice *d)
+static double bad_number(struct rng *d)
 {
     static const double bad[] = {NAN, INFINITY, -INFINITY, DBL_MAX, 0x1.000001p1000};
-    return bad[dice_below(d, 5)];
+    return bad[rng_below(d, 5)];
 }
 
-static void bad_triangle(struct part *p, struct dice *d)
+static void bad_triangle(struct part *p, struct rng *d)
 {
     double x[9];
     for (int k = 0; k < 9; k++)
-        x[k] = dice_unit(d);
-    const uint32_t at = dice_below(d, 9);
+        x[k] = rng_unit(d);
+    const uint32_t at = rng_below(d, 9);
     x[at] = bad_number(d);
     part_triangle(p, x, x + 3, x + 6);
 }
 
-static void bad_sphere(struct part *p, struct dice *d)
+static void bad_sphere(struct part *p, struct rng *d)
 {
-    double x[4] = {dice_unit(d), dice_unit(d), dice_unit(d), 0.1};
-    const uint32_t which = dice_below(d, 6);
+    double x[4] = {rng_unit(d), rng_unit(d), rng_unit(d), 0.1};
+    const uint32_t which = rng_below(d, 6);
     if (which < 4)
         x[which] = bad_number(d);
     else
@@ -107,19 +107,19 @@ static void bad_sphere(struct part *p, struct dice *d)
     part_sphere(p, x, x[3]);
 }
 
-static void bad_object(struct part *p, struct dice *d)
+static void bad_object(struct part *p, struct rng *d)
 {
-    const uint32_t k = dice_below(d, 3);
+    const uint32_t k = rng_below(d, 3);
     const double data[6] = {0.5, 0, 0, 0, 0, 0};
     accel_box box = {{0, 0, 0}, {1, 1, 1}};
-    if (dice_chance(d, 0.5))
+    if (rng_chance(d, 0.5))
         box.lo[k] = 2.0;
     else
         box.hi[k] = (double)NAN;
     part_object(p, &box, STRAY, data);
 }
 
-void make_all_invalid(struct test_scene *s, struct dice *d, double unused)
+void make_all_invalid(struct test_scene *s, struct rng *d, double unused)
 {
     (void)unused;
     struct part *p = scene_part(s, ACCEL_TRIANGLES);
@@ -134,12 +134,12 @@ void make_all_invalid(struct test_scene *s, struct dice *d, double unused)
 }
 
 /* Points, segments, equal corners, and three corners on one line. */
-static void thin_triangle(struct part *p, struct dice *d)
+static void thin_triangle(struct part *p, struct rng *d)
 {
     double x[9];
     for (int k = 0; k < 9; k++)
-        x[k] = dice_below(d, 5) / 4.0;
-    const uint32_t which = dice_below(d, 4);
+        x[k] = rng_below(d, 5) / 4.0;
+    const uint32_t which = rng_below(d, 4);
     for (int k = 0; k < 3; k++) {
         if (which <= 1)
             x[6 + k] = x[3 + k];
@@ -151,25 +151,25 @@ static void thin_triangle(struct part *p, struct dice *d)
     part_triangle(p, x, x + 3, x + 6);
 }
 
-static void flat_object(struct part *p, struct dice *d)
+static void flat_object(struct part *p, struct rng *d)
 {
     double x[6];
     for (int k = 0; k < 3; k++) {
-        x[k] = dice_below(d, 5) / 4.0;
-        x[3 + k] = dice_chance(d, 0.5) ? x[k] : x[k] + 0.5;
+        x[k] = rng_below(d, 5) / 4.0;
+        x[3 + k] = rng_chance(d, 0.5) ? x[k] : x[k] + 0.5;
     }
     const accel_box box = {{x[0], x[1], x[2]}, {x[3], x[4], x[5]}};
     part_object(p, &box, CRATE, x);
 }
 
-void make_degenerate(struct test_scene *s, struct dice *d, double count)
+void make_degenerate(struct test_scene *s, struct rng *d, double count)
 {
     struct part *triangles = scene_part(s, ACCEL_TRIANGLES);
     struct part *spheres = scene_part(s, ACCEL_SPHERES);
     struct part *objects = scene_part(s, ACCEL_OBJECTS);
     for (int i = 0; i < (int)count; i++) {
-        const double x[3] = {dice_unit(d), dice_unit(d), dice_unit(d)};
-        switch (dice_below(d, 7)) {
+        const double x[3] = {rng_unit(d), rng_unit(d), rng_unit(d)};
+        switch (rng_below(d, 7)) {
         case 0:
             bad_triangle(triangles, d);
             break;
@@ -187,7 +187,7 @@ void make_degenerate(struct test_scene *s, struct dice *d, double count)
             flat_object(objects, d);
             break;
         default:
-            part_sphere(spheres, x, dice_power(d, -1074, -2));
+            part_sphere(spheres, x, rng_power(d, -1074, -2));
         }
     }
 }

@@ -13,15 +13,15 @@ static void quad(struct part *p, double x[4][3])
 }
 
 /* Squares on the planes of an n^3 lattice of integers, triangles between its points. */
-void make_lattice(struct test_scene *s, struct dice *d, double n)
+void make_lattice(struct test_scene *s, struct rng *d, double n)
 {
     struct part *p = scene_part(s, ACCEL_TRIANGLES);
     const uint32_t cells = (uint32_t)n;
     for (int i = 0; i < 400; i++) {
-        const uint32_t axis = dice_below(d, 3), u = (axis + 1) % 3, v = (axis + 2) % 3;
+        const uint32_t axis = rng_below(d, 3), u = (axis + 1) % 3, v = (axis + 2) % 3;
         double x[4][3], at[3];
         for (int k = 0; k < 3; k++)
-            at[k] = dice_below(d, cells);
+            at[k] = rng_below(d, cells);
         for (int c = 0; c < 4; c++) {
             x[c][axis] = at[axis];
             x[c][u] = at[u] + (c == 1 || c == 2);
@@ -32,7 +32,7 @@ void make_lattice(struct test_scene *s, struct dice *d, double n)
     for (int i = 0; i < 100; i++) {
         double x[9];
         for (int k = 0; k < 9; k++)
-            x[k] = dice_below(d, cells + 1);
+            x[k] = rng_below(d, cells + 1);
         part_triangle(p, x, x + 3, x + 6);
     }
 }
@@ -94,23 +94,23 @@ void ball_mesh(struct part *p, const double centre[3], double radius, int levels
     }
 }
 
-void make_ball_mesh(struct test_scene *s, struct dice *d, double levels)
+void make_ball_mesh(struct test_scene *s, struct rng *d, double levels)
 {
-    const double centre[3] = {dice_unit(d), dice_unit(d), dice_unit(d)};
+    const double centre[3] = {rng_unit(d), rng_unit(d), rng_unit(d)};
     ball_mesh(scene_part(s, ACCEL_TRIANGLES), centre, 1.0, (int)levels);
 }
 
 /* Splits random triangles of the square 0..1 at random points inside, 1 to 3: no vertex ever lies
  * on a neighbour's edge. */
-void make_split_square(struct test_scene *s, struct dice *d, double triangles)
+void make_split_square(struct test_scene *s, struct rng *d, double triangles)
 {
     struct part *p = scene_part(s, ACCEL_TRIANGLES);
-    const double tilt = dice_unit(d);
+    const double tilt = rng_unit(d);
     double x[4][3] = {{0, 0, 0}, {1, 0, tilt}, {1, 1, 0}, {0, 1, -tilt}};
     quad(p, x);
     while (p->count < (uint32_t)triangles) {
-        double *t = p->data + 9 * (size_t)dice_below(d, p->count), m[3], a[3], b[3], c[3];
-        const double u = dice_range(d, 0.05, 0.45), v = dice_range(d, 0.05, 0.45);
+        double *t = p->data + 9 * (size_t)rng_below(d, p->count), m[3], a[3], b[3], c[3];
+        const double u = rng_range(d, 0.05, 0.45), v = rng_range(d, 0.05, 0.45);
         for (int k = 0; k < 3; k++) {
             a[k] = t[k];
             b[k] = t[3 + k];
@@ -123,14 +123,14 @@ void make_split_square(struct test_scene *s, struct dice *d, double triangles)
     }
 }
 
-void make_terrain(struct test_scene *s, struct dice *d, double n)
+void make_terrain(struct test_scene *s, struct rng *d, double n)
 {
     enum { MOST = 64 };
     double height[MOST + 1][MOST + 1];
     const int cells = (int)n;
     for (int i = 0; i <= cells; i++)
         for (int j = 0; j <= cells; j++)
-            height[i][j] = 0.1 * dice_unit(d);
+            height[i][j] = 0.1 * rng_unit(d);
     struct part *p = scene_part(s, ACCEL_TRIANGLES);
     for (int i = 0; i < cells; i++) {
         for (int j = 0; j < cells; j++) {
@@ -157,12 +157,12 @@ static void on_circle(uint32_t i, uint32_t n, double out[2])
 }
 
 /* Two fans over one ring: closed. */
-void make_fan(struct test_scene *s, struct dice *d, double unused)
+void make_fan(struct test_scene *s, struct rng *d, double unused)
 {
     (void)unused;
     struct part *p = scene_part(s, ACCEL_TRIANGLES);
-    const uint32_t n = 3 + dice_below(d, 62);
-    const double apex[2][3] = {{0.1, 0.05, 1}, {0, 0, -dice_unit(d)}};
+    const uint32_t n = 3 + rng_below(d, 62);
+    const double apex[2][3] = {{0.1, 0.05, 1}, {0, 0, -rng_unit(d)}};
     for (uint32_t i = 0; i < n; i++) {
         double a[3] = {0, 0, 0}, b[3] = {0, 0, 0};
         on_circle(i, n, a);
@@ -174,14 +174,14 @@ void make_fan(struct test_scene *s, struct dice *d, double unused)
 
 /* Squares in the planes x, y or z = 1/2, the same ones again and again, some one ulp off; several
  * geometries, so that ties are across them. */
-void make_stack(struct test_scene *s, struct dice *d, double parts)
+void make_stack(struct test_scene *s, struct rng *d, double parts)
 {
     for (int g = 0; g < (int)parts; g++) {
         struct part *p = scene_part(s, ACCEL_TRIANGLES);
         for (int i = 0; i < 40; i++) {
-            const uint32_t axis = dice_below(d, 3), u = (axis + 1) % 3, v = (axis + 2) % 3;
-            const double at[2] = {dice_below(d, 4) / 4.0, dice_below(d, 4) / 4.0};
-            const double plane = dice_chance(d, 0.7) ? 0.5 : nextafter(0.5, dice_below(d, 2));
+            const uint32_t axis = rng_below(d, 3), u = (axis + 1) % 3, v = (axis + 2) % 3;
+            const double at[2] = {rng_below(d, 4) / 4.0, rng_below(d, 4) / 4.0};
+            const double plane = rng_chance(d, 0.7) ? 0.5 : nextafter(0.5, rng_below(d, 2));
             double x[4][3];
             for (int c = 0; c < 4; c++) {
                 x[c][axis] = plane;
@@ -193,10 +193,10 @@ void make_stack(struct test_scene *s, struct dice *d, double parts)
     }
 }
 
-void make_twins(struct test_scene *s, struct dice *d, double unused)
+void make_twins(struct test_scene *s, struct rng *d, double unused)
 {
     (void)unused;
-    const double centre[3] = {dice_unit(d), dice_unit(d), dice_unit(d)};
+    const double centre[3] = {rng_unit(d), rng_unit(d), rng_unit(d)};
     for (int copy = 0; copy < 3; copy++) {
         struct part *p = scene_part(s, ACCEL_TRIANGLES);
         ball_mesh(p, centre, 1.0, 2);
@@ -207,19 +207,19 @@ void make_twins(struct test_scene *s, struct dice *d, double unused)
 
 /* Objects whose reports are odd: many roots, roots outside the box, NaN. Ordered by key, where
  * every kind agrees whatever is reported. */
-void make_exotic(struct test_scene *s, struct dice *d, double count)
+void make_exotic(struct test_scene *s, struct rng *d, double count)
 {
     struct part *p = scene_part(s, ACCEL_OBJECTS);
     for (int i = 0; i < (int)count; i++) {
         accel_box box;
         for (int k = 0; k < 3; k++) {
-            box.lo[k] = dice_unit(d);
-            box.hi[k] = box.lo[k] + dice_power(d, -10, 0);
+            box.lo[k] = rng_unit(d);
+            box.hi[k] = box.lo[k] + rng_power(d, -10, 0);
         }
-        const double comb[6] = {1 + dice_below(d, 50), dice_range(d, -1, 1), dice_range(d, 0, 3)};
-        const double stray[6] = {dice_range(d, -3, 3)};
-        const double far_away[6] = {dice_power(d, -1000, 1000)};
-        switch (dice_below(d, 4)) {
+        const double comb[6] = {1 + rng_below(d, 50), rng_range(d, -1, 1), rng_range(d, 0, 3)};
+        const double stray[6] = {rng_range(d, -3, 3)};
+        const double far_away[6] = {rng_power(d, -1000, 1000)};
+        switch (rng_below(d, 4)) {
         case 0:
             part_object(p, &box, COMB, comb);
             break;

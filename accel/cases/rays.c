@@ -15,48 +15,48 @@ static double finite_or(double x, double other)
     return isfinite(x) ? x : other;
 }
 
-static void on_triangle(const double *t, struct dice *d, enum spot spot, double out[3])
+static void on_triangle(const double *t, struct rng *d, enum spot spot, double out[3])
 {
-    const uint32_t i = dice_below(d, 3), j = (i + 1) % 3, l = (i + 2) % 3;
-    const double u = spot == VERTEX        ? 0.0
-                     : dice_chance(d, 0.5) ? dice_unit(d)
-                                           : dice_below(d, 9) / 8.0;
-    const double v = spot == INSIDE ? (1.0 - u) * dice_unit(d) : 0.0;
+    const uint32_t i = rng_below(d, 3), j = (i + 1) % 3, l = (i + 2) % 3;
+    const double u = spot == VERTEX       ? 0.0
+                     : rng_chance(d, 0.5) ? rng_unit(d)
+                                          : rng_below(d, 9) / 8.0;
+    const double v = spot == INSIDE ? (1.0 - u) * rng_unit(d) : 0.0;
     for (uint32_t k = 0; k < 3; k++) {
         const double a = t[3 * i + k], b = t[3 * j + k], c = t[3 * l + k];
         out[k] = a + u * (b - a) + v * (c - a);
     }
 }
 
-static void on_sphere(const double *sphere, struct dice *d, enum spot spot, double out[3])
+static void on_sphere(const double *sphere, struct rng *d, enum spot spot, double out[3])
 {
     double x[3] = {0, 0, 0};
     if (spot == VERTEX)
-        x[dice_below(d, 3)] = dice_chance(d, 0.5) ? 1 : -1;
+        x[rng_below(d, 3)] = rng_chance(d, 0.5) ? 1 : -1;
     else
         for (int k = 0; k < 3; k++)
-            x[k] = dice_range(d, -1, 1);
+            x[k] = rng_range(d, -1, 1);
     const double length = spot == EDGE ? sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]) : 1.0;
     for (int k = 0; k < 3; k++)
         out[k] = sphere[k] + sphere[3] * (x[k] / length);
 }
 
-static void on_box(const accel_box *b, struct dice *d, enum spot spot, double out[3])
+static void on_box(const accel_box *b, struct rng *d, enum spot spot, double out[3])
 {
     for (int k = 0; k < 3; k++) {
         const double lo = finite_or(b->lo[k], -1.0), hi = finite_or(b->hi[k], 1.0);
-        const bool end = spot == VERTEX || (spot == EDGE && dice_chance(d, 0.6));
-        out[k] = end ? (dice_chance(d, 0.5) ? lo : hi) : lo + dice_unit(d) * (hi - lo);
+        const bool end = spot == VERTEX || (spot == EDGE && rng_chance(d, 0.6));
+        out[k] = end ? (rng_chance(d, 0.5) ? lo : hi) : lo + rng_unit(d) * (hi - lo);
     }
 }
 
 /* A random primitive. NULL if the scene has none. */
-static const struct part *pick(const struct test_scene *s, struct dice *d, uint32_t *index)
+static const struct part *pick(const struct test_scene *s, struct rng *d, uint32_t *index)
 {
     const uint64_t size = scene_size(s);
     if (size == 0)
         return NULL;
-    uint32_t at = dice_below(d, (uint32_t)size);
+    uint32_t at = rng_below(d, (uint32_t)size);
     const struct part *p = s->part;
     while (at >= p->count)
         at -= p++->count;
@@ -64,7 +64,7 @@ static const struct part *pick(const struct test_scene *s, struct dice *d, uint3
     return p;
 }
 
-static void target(const struct test_scene *s, struct dice *d, enum spot spot, double out[3])
+static void target(const struct test_scene *s, struct rng *d, enum spot spot, double out[3])
 {
     uint32_t i;
     const struct part *p = pick(s, d, &i);
@@ -81,12 +81,12 @@ static void target(const struct test_scene *s, struct dice *d, enum spot spot, d
 }
 
 /* A point in the scene's box, or up to one and a half extents outside. */
-static void anywhere(const struct test_scene *s, struct dice *d, double out[3])
+static void anywhere(const struct test_scene *s, struct rng *d, double out[3])
 {
-    const bool inside = dice_chance(d, 0.3);
+    const bool inside = rng_chance(d, 0.3);
     for (int k = 0; k < 3; k++) {
         const double lo = s->box.lo[k], size = s->box.hi[k] - lo;
-        out[k] = lo + size * (inside ? dice_unit(d) : dice_range(d, -1.5, 2.5));
+        out[k] = lo + size * (inside ? rng_unit(d) : rng_range(d, -1.5, 2.5));
     }
 }
 
@@ -98,13 +98,13 @@ static accel_ray towards(const double org[3], const double to[3])
     return accel_ray_from(org, dir);
 }
 
-static accel_ray aimed(const struct test_scene *s, struct dice *d, enum spot spot)
+static accel_ray aimed(const struct test_scene *s, struct rng *d, enum spot spot)
 {
     double org[3], to[3];
     anywhere(s, d, org);
     target(s, d, spot, to);
     accel_ray ray = towards(org, to);
-    if (dice_chance(d, 0.5)) {
+    if (rng_chance(d, 0.5)) {
         const double largest = fmax(fabs(ray.dir[0]), fmax(fabs(ray.dir[1]), fabs(ray.dir[2])));
         for (int k = 0; largest > 0 && k < 3; k++)
             ray.dir[k] /= largest;
@@ -112,7 +112,7 @@ static accel_ray aimed(const struct test_scene *s, struct dice *d, enum spot spo
     return ray;
 }
 
-static accel_ray random_ray(const struct test_scene *s, struct dice *d)
+static accel_ray random_ray(const struct test_scene *s, struct rng *d)
 {
     double org[3], to[3];
     anywhere(s, d, org);
@@ -120,28 +120,28 @@ static accel_ray random_ray(const struct test_scene *s, struct dice *d)
     return towards(org, to);
 }
 
-static double either_zero(struct dice *d)
+static double either_zero(struct rng *d)
 {
-    return dice_chance(d, 0.5) ? 0.0 : -0.0;
+    return rng_chance(d, 0.5) ? 0.0 : -0.0;
 }
 
-static accel_ray parallel_ray(const struct test_scene *s, struct dice *d)
+static accel_ray parallel_ray(const struct test_scene *s, struct rng *d)
 {
     double org[3], dir[3];
     target(s, d, VERTEX, org);
-    const uint32_t k = dice_below(d, 3);
-    const bool up = dice_chance(d, 0.5);
+    const uint32_t k = rng_below(d, 3);
+    const bool up = rng_chance(d, 0.5);
     for (int i = 0; i < 3; i++)
         dir[i] = either_zero(d);
     dir[k] = up ? 1.0 : -1.0;
     const double size = fmax(s->box.hi[k] - s->box.lo[k], DBL_MIN);
-    if (dice_chance(d, 0.8))
+    if (rng_chance(d, 0.8))
         org[k] = up ? s->box.lo[k] - size : s->box.hi[k] + size;
     return accel_ray_from(org, dir);
 }
 
 /* From far along a line that leaves a triangle's plane by 1e-2..1e-15. */
-static accel_ray grazing_ray(const struct test_scene *s, struct dice *d)
+static accel_ray grazing_ray(const struct test_scene *s, struct rng *d)
 {
     double a[3], b[3], org[3];
     uint32_t i;
@@ -150,16 +150,16 @@ static accel_ray grazing_ray(const struct test_scene *s, struct dice *d)
         return aimed(s, d, EDGE);
     on_triangle(p->data + 9 * (size_t)i, d, INSIDE, a);
     on_triangle(p->data + 9 * (size_t)i, d, EDGE, b);
-    const double off = dice_power(d, -50, -6), back = dice_range(d, 0.1, 20);
+    const double off = rng_power(d, -50, -6), back = rng_range(d, 0.1, 20);
     double size = 0.0;
     for (int k = 0; k < 3; k++)
         size = fmax(size, fabs(b[k] - a[k]));
     for (int k = 0; k < 3; k++)
-        org[k] = finite_or(a[k] - back * (b[k] - a[k]) + size * off * dice_range(d, -1, 1), 0.0);
+        org[k] = finite_or(a[k] - back * (b[k] - a[k]) + size * off * rng_range(d, -1, 1), 0.0);
     return towards(org, a);
 }
 
-static accel_ray mix_ray(const struct test_scene *s, const accel *judge, struct dice *d, uint64_t i)
+static accel_ray mix_ray(const struct test_scene *s, const accel *judge, struct rng *d, uint64_t i)
 {
     (void)judge;
     switch (i % 6) {
@@ -190,48 +190,48 @@ static double special(uint32_t i)
 }
 
 /* Every direction of special components, one after the other; the rest is sampled. */
-static accel_ray special_ray(const struct test_scene *s, const accel *judge, struct dice *d,
+static accel_ray special_ray(const struct test_scene *s, const accel *judge, struct rng *d,
                              uint64_t i)
 {
     (void)judge;
     double org[3], dir[3];
     uint64_t left = i;
-    target(s, d, (enum spot)dice_below(d, 3), org);
-    if (dice_chance(d, 0.5))
+    target(s, d, (enum spot)rng_below(d, 3), org);
+    if (rng_chance(d, 0.5))
         anywhere(s, d, org);
     for (int k = 0; k < 3; k++) {
         dir[k] = special((uint32_t)(left % SPECIALS));
         left /= SPECIALS;
-        if (dice_chance(d, 0.1))
-            org[k] = special(dice_below(d, SPECIALS));
+        if (rng_chance(d, 0.1))
+            org[k] = special(rng_below(d, SPECIALS));
     }
     accel_ray ray = accel_ray_from(org, dir);
-    if (dice_chance(d, 0.2))
-        ray.tmin = special(dice_below(d, SPECIALS));
-    if (dice_chance(d, 0.2))
-        ray.tmax = special(dice_below(d, SPECIALS));
+    if (rng_chance(d, 0.2))
+        ray.tmin = special(rng_below(d, SPECIALS));
+    if (rng_chance(d, 0.2))
+        ray.tmax = special(rng_below(d, SPECIALS));
     return ray;
 }
 
 /* From a vertex, an edge, a face or a box's corner, along an axis, an edge or anywhere. */
-static accel_ray origin_on(const struct test_scene *s, const accel *judge, struct dice *d,
+static accel_ray origin_on(const struct test_scene *s, const accel *judge, struct rng *d,
                            uint64_t i)
 {
     (void)judge;
     double org[3], to[3];
     target(s, d, (enum spot)(i % 3), org);
-    target(s, d, (enum spot)dice_below(d, 3), to);
+    target(s, d, (enum spot)rng_below(d, 3), to);
     accel_ray ray = towards(org, to);
-    const uint32_t keep = dice_below(d, 6);
+    const uint32_t keep = rng_below(d, 6);
     for (uint32_t k = 0; keep < 3 && k < 3; k++)
-        ray.dir[k] = k == keep ? (dice_chance(d, 0.5) ? 1.0 : -1.0) : either_zero(d);
-    if (dice_chance(d, 0.3))
+        ray.dir[k] = k == keep ? (rng_chance(d, 0.5) ? 1.0 : -1.0) : either_zero(d);
+    if (rng_chance(d, 0.3))
         ray.tmin = -(double)INFINITY;
     return ray;
 }
 
 /* Through points and half points of the integer lattice, in the 26 directions, both zeros. */
-static accel_ray lattice_ray(const struct test_scene *s, const accel *judge, struct dice *d,
+static accel_ray lattice_ray(const struct test_scene *s, const accel *judge, struct rng *d,
                              uint64_t i)
 {
     (void)judge;
@@ -240,16 +240,16 @@ static accel_ray lattice_ray(const struct test_scene *s, const accel *judge, str
     const uint32_t digit[3] = {(uint32_t)code % 3, (uint32_t)code / 3 % 3, (uint32_t)code / 9};
     for (int k = 0; k < 3; k++) {
         const uint32_t cells = (uint32_t)(s->box.hi[k] - s->box.lo[k]) + 5;
-        org[k] = s->box.lo[k] - 2 + dice_below(d, 2 * cells) / 2.0;
+        org[k] = s->box.lo[k] - 2 + rng_below(d, 2 * cells) / 2.0;
         dir[k] = digit[k] == 1 ? either_zero(d) : (double)digit[k] - 1.0;
     }
-    for (int k = 0; dice_chance(d, 0.3) && k < 3; k++)
-        dir[k] *= 1 + dice_below(d, 7);
+    for (int k = 0; rng_chance(d, 0.3) && k < 3; k++)
+        dir[k] *= 1 + rng_below(d, 7);
     return accel_ray_from(org, dir);
 }
 
 /* Ends its interval at the first hit's t, or one step before or behind. */
-static accel_ray ending_ray(const struct test_scene *s, const accel *judge, struct dice *d,
+static accel_ray ending_ray(const struct test_scene *s, const accel *judge, struct rng *d,
                             uint64_t i)
 {
     const double inf = (double)INFINITY;
@@ -258,26 +258,26 @@ static accel_ray ending_ray(const struct test_scene *s, const accel *judge, stru
     if (!accel_closest(judge, &ray, &hit, NULL))
         return ray;
     const double end[3] = {hit.t, nextafter(hit.t, -inf), nextafter(hit.t, inf)};
-    const uint32_t which = dice_below(d, 6);
+    const uint32_t which = rng_below(d, 6);
     *(which < 3 ? &ray.tmin : &ray.tmax) = end[which % 3];
     return ray;
 }
 
-static accel_ray unnormalised_ray(const struct test_scene *s, const accel *judge, struct dice *d,
+static accel_ray unnormalised_ray(const struct test_scene *s, const accel *judge, struct rng *d,
                                   uint64_t i)
 {
     accel_ray ray = mix_ray(s, judge, d, i);
-    const int power = dice_chance(d, 0.5) ? 500 : -500;
+    const int power = rng_chance(d, 0.5) ? 500 : -500;
     for (int k = 0; k < 3; k++)
         ray.dir[k] = ldexp(ray.dir[k], power);
     return ray;
 }
 
 /* Leaves the primitive that it was reflected or refracted at. */
-static accel_ray secondary_ray(const struct test_scene *s, const accel *judge, struct dice *d,
+static accel_ray secondary_ray(const struct test_scene *s, const accel *judge, struct rng *d,
                                uint64_t i)
 {
-    struct dice base = dice_from(d->seed, i / 1000);
+    struct rng base = rng_from(d->seed, i / 1000);
     const accel_ray first = mix_ray(s, judge, &base, i / 1000);
     accel_hit hit;
     if (!accel_closest(judge, &first, &hit, NULL))
@@ -285,7 +285,7 @@ static accel_ray secondary_ray(const struct test_scene *s, const accel *judge, s
     double org[3], dir[3];
     for (int k = 0; k < 3; k++) {
         org[k] = first.org[k] + hit.t * first.dir[k];
-        dir[k] = dice_range(d, -1, 1);
+        dir[k] = rng_range(d, -1, 1);
     }
     accel_ray ray = accel_ray_from(org, dir);
     ray.skip = (accel_id){hit.geom, hit.prim};
@@ -293,19 +293,19 @@ static accel_ray secondary_ray(const struct test_scene *s, const accel *judge, s
 }
 
 /* From 1e3 to 1e14 extents away. */
-static accel_ray far_ray(const struct test_scene *s, const accel *judge, struct dice *d, uint64_t i)
+static accel_ray far_ray(const struct test_scene *s, const accel *judge, struct rng *d, uint64_t i)
 {
     (void)judge;
     double org[3], to[3];
     target(s, d, (enum spot)(i % 3), to);
-    const double distance = dice_power(d, 10, 47);
+    const double distance = rng_power(d, 10, 47);
     for (int k = 0; k < 3; k++)
-        org[k] = to[k] + distance * (s->box.hi[k] - s->box.lo[k]) * dice_range(d, -1, 1);
+        org[k] = to[k] + distance * (s->box.hi[k] - s->box.lo[k]) * rng_range(d, -1, 1);
     return towards(org, to);
 }
 
 /* Those that come with the scene, one after the other. */
-static accel_ray given_ray(const struct test_scene *s, const accel *judge, struct dice *d,
+static accel_ray given_ray(const struct test_scene *s, const accel *judge, struct rng *d,
                            uint64_t i)
 {
     return s->given_count ? s->given[i % s->given_count] : mix_ray(s, judge, d, i);

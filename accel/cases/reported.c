@@ -24,7 +24,7 @@ static accel_ray single_ray(const double org[3], const double to[3])
 
 /* embree 387: one triangle of sides 11.2, 9.8 and 1.5, rays from up to 600 away that meet its plane
  * at half a degree, at the triangle or beside it. */
-void make_skinny(struct test_scene *s, struct dice *d, double rays)
+void make_skinny(struct test_scene *s, struct rng *d, double rays)
 {
     const double a[3] = {single(310.7), single(-201.3), single(77.9)};
     const double along[3] = {single(6.3), single(7.2), single(5.8)}; /* 11.2 long */
@@ -36,8 +36,8 @@ void make_skinny(struct test_scene *s, struct dice *d, double rays)
     }
     part_triangle(scene_part(s, ACCEL_TRIANGLES), a, b, c);
     for (int i = 0; i < (int)rays; i++) {
-        const double u = dice_range(d, -0.5, 1.5), v = dice_range(d, -0.5, 1.5);
-        const double far = dice_range(d, 10, 50), turn = dice_range(d, -3, 3);
+        const double u = rng_range(d, -0.5, 1.5), v = rng_range(d, -0.5, 1.5);
+        const double far = rng_range(d, 10, 50), turn = rng_range(d, -3, 3);
         double to[3], org[3], normal[3];
         for (int k = 0; k < 3; k++) {
             const int m = (k + 1) % 3, n = (k + 2) % 3;
@@ -53,7 +53,7 @@ void make_skinny(struct test_scene *s, struct dice *d, double rays)
 }
 
 /* embree 416: a box 120,000 high and `extent` wide, seen from 500 above. */
-void make_slab(struct test_scene *s, struct dice *d, double extent)
+void make_slab(struct test_scene *s, struct rng *d, double extent)
 {
     struct part *p = scene_part(s, ACCEL_TRIANGLES);
     const double size[3] = {single(extent), single(extent), 120000};
@@ -71,9 +71,9 @@ void make_slab(struct test_scene *s, struct dice *d, double extent)
         }
     }
     for (int i = 0; i < 1000; i++) {
-        const double slope = i % 2 ? dice_power(d, -10, 10) : 0;
-        const double org[3] = {single(dice_range(d, 0.1, 0.9) * extent),
-                               single(dice_range(d, 0.1, 0.9) * extent), 120500};
+        const double slope = i % 2 ? rng_power(d, -10, 10) : 0;
+        const double org[3] = {single(rng_range(d, 0.1, 0.9) * extent),
+                               single(rng_range(d, 0.1, 0.9) * extent), 120500};
         const double to[3] = {org[0] + slope, org[1] - slope / 3, 120499};
         const accel_ray ray = single_ray(org, to);
         scene_give(s, &ray);
@@ -82,7 +82,7 @@ void make_slab(struct test_scene *s, struct dice *d, double extent)
 
 /* embree 423: do two meshes collide? Each edge of one is a ray that ends at t = 1; one of the two
  * other balls is out of reach, the other overlaps. */
-void make_collision(struct test_scene *s, struct dice *d, double levels)
+void make_collision(struct test_scene *s, struct rng *d, double levels)
 {
     (void)d;
     const double at[3] = {single(0.22868), single(1.35269), single(-0.4)};
@@ -107,12 +107,12 @@ void make_collision(struct test_scene *s, struct dice *d, double levels)
 
 /* At x, y = i, j halves of the square 0..side, far above it, straight down the axis or a little
  * aslant, where double still is exact. */
-static void give_down(struct test_scene *s, struct dice *d, int axis, uint32_t side)
+static void give_down(struct test_scene *s, struct rng *d, int axis, uint32_t side)
 {
     double org[3], dir[3];
     for (int k = 0; k < 3; k++) {
-        org[k] = (double)dice_below(d, 2 * side + 1) / 2 - side / 2.0;
-        dir[k] = dice_chance(d, 0.7) ? 0 : dice_chance(d, 0.5) ? 1 : -1;
+        org[k] = (double)rng_below(d, 2 * side + 1) / 2 - side / 2.0;
+        dir[k] = rng_chance(d, 0.7) ? 0 : rng_chance(d, 0.5) ? 1 : -1;
     }
     org[axis] = side;
     dir[axis] = -1;
@@ -122,7 +122,7 @@ static void give_down(struct test_scene *s, struct dice *d, int axis, uint32_t s
 
 /* POV-Ray FS324: a closed pyramid so flat that its faces meet at a tenth of a degree: near its rim
  * one hit follows the other at a distance below any tolerance. */
-void make_pyramid(struct test_scene *s, struct dice *d, double half)
+void make_pyramid(struct test_scene *s, struct rng *d, double half)
 {
     struct part *p = scene_part(s, ACCEL_TRIANGLES);
     const double top[3] = {0, 0, 1};
@@ -136,7 +136,7 @@ void make_pyramid(struct test_scene *s, struct dice *d, double half)
 }
 
 /* tinybvh 168: a closed mesh whose vertices are integers, seen from a grid above. */
-void make_quantised(struct test_scene *s, struct dice *d, double half)
+void make_quantised(struct test_scene *s, struct rng *d, double half)
 {
     const double origin[3] = {0, 0, 0};
     struct part *p = scene_part(s, ACCEL_TRIANGLES);

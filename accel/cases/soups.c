@@ -4,19 +4,19 @@
  */
 #include "catalogue.h"
 
-static void random_point(struct dice *d, double out[3])
+static void random_point(struct rng *d, double out[3])
 {
     for (int k = 0; k < 3; k++)
-        out[k] = dice_unit(d);
+        out[k] = rng_unit(d);
 }
 
 /* A number of either sign and magnitude up to `size`. */
-static double around(struct dice *d, double size)
+static double around(struct rng *d, double size)
 {
-    return size * dice_range(d, -1.0, 1.0);
+    return size * rng_range(d, -1.0, 1.0);
 }
 
-void random_triangle(struct part *p, struct dice *d, double edge)
+void random_triangle(struct part *p, struct rng *d, double edge)
 {
     double a[3], b[3], c[3];
     random_point(d, a);
@@ -27,28 +27,28 @@ void random_triangle(struct part *p, struct dice *d, double edge)
     part_triangle(p, a, b, c);
 }
 
-void make_soup(struct test_scene *s, struct dice *d, double count)
+void make_soup(struct test_scene *s, struct rng *d, double count)
 {
     struct part *p = scene_part(s, ACCEL_TRIANGLES);
     for (uint32_t i = 0; i < (uint32_t)count; i++)
-        random_triangle(p, d, count < 5000 ? dice_power(d, -10, 0) : dice_power(d, -10, -4));
+        random_triangle(p, d, count < 5000 ? rng_power(d, -10, 0) : rng_power(d, -10, -4));
 }
 
-void make_log_sizes(struct test_scene *s, struct dice *d, double count)
+void make_log_sizes(struct test_scene *s, struct rng *d, double count)
 {
     struct part *p = scene_part(s, ACCEL_TRIANGLES);
     for (uint32_t i = 0; i < (uint32_t)count; i++)
-        random_triangle(p, d, dice_power(d, -40, 0));
+        random_triangle(p, d, rng_power(d, -40, 0));
 }
 
-void make_scaled(struct test_scene *s, struct dice *d, double factor)
+void make_scaled(struct test_scene *s, struct rng *d, double factor)
 {
     const double nowhere[3] = {0, 0, 0};
     make_soup(s, d, 300);
     scene_move(s, factor, nowhere);
 }
 
-void make_shifted(struct test_scene *s, struct dice *d, double offset)
+void make_shifted(struct test_scene *s, struct rng *d, double offset)
 {
     const double odd[3] = {148376, 1234, -223423}, even[3] = {offset, -offset, offset};
     make_soup(s, d, 300);
@@ -56,12 +56,12 @@ void make_shifted(struct test_scene *s, struct dice *d, double offset)
 }
 
 /* Needles: two long edges and a short one. Caps: three corners nearly on a line. */
-void make_slivers(struct test_scene *s, struct dice *d, double count)
+void make_slivers(struct test_scene *s, struct rng *d, double count)
 {
     struct part *p = scene_part(s, ACCEL_TRIANGLES);
     for (uint32_t i = 0; i < (uint32_t)count; i++) {
-        const double aspect = dice_power(d, -47, -10), length = dice_power(d, -3, 0);
-        const double along = dice_chance(d, 0.5) ? 1.0 : dice_unit(d);
+        const double aspect = rng_power(d, -47, -10), length = rng_power(d, -3, 0);
+        const double along = rng_chance(d, 0.5) ? 1.0 : rng_unit(d);
         double a[3], b[3], c[3];
         random_point(d, a);
         for (int k = 0; k < 3; k++) {
@@ -73,7 +73,7 @@ void make_slivers(struct test_scene *s, struct dice *d, double count)
 }
 
 /* A ball of 8 * 4^levels triangles, 1e-3 large, somewhere in a box of 1e3 with a few seats. */
-void make_stadium(struct test_scene *s, struct dice *d, double levels)
+void make_stadium(struct test_scene *s, struct rng *d, double levels)
 {
     struct part *p = scene_part(s, ACCEL_TRIANGLES);
     const double centre[3] = {123.456, -321.0, 7.25};
@@ -107,7 +107,7 @@ static accel_box box_around(const double centre[3], double radius)
     return b;
 }
 
-static void random_ball(struct part *p, struct dice *d, double radius, enum behaviour behaviour)
+static void random_ball(struct part *p, struct rng *d, double radius, enum behaviour behaviour)
 {
     double x[6] = {0};
     random_point(d, x);
@@ -116,17 +116,17 @@ static void random_ball(struct part *p, struct dice *d, double radius, enum beha
     part_object(p, &box, behaviour, x);
 }
 
-static void random_crate(struct part *p, struct dice *d, double size)
+static void random_crate(struct part *p, struct rng *d, double size)
 {
     double x[6];
     random_point(d, x);
     for (int k = 0; k < 3; k++)
-        x[3 + k] = x[k] + size * dice_unit(d);
+        x[3 + k] = x[k] + size * rng_unit(d);
     const accel_box box = {{x[0], x[1], x[2]}, {x[3], x[4], x[5]}};
     part_object(p, &box, CRATE, x);
 }
 
-static void random_plane(struct part *p, struct dice *d)
+static void random_plane(struct part *p, struct rng *d)
 {
     const double inf = (double)INFINITY;
     double x[6];
@@ -136,13 +136,13 @@ static void random_plane(struct part *p, struct dice *d)
     const accel_box endless = {{-inf, -inf, -inf}, {inf, inf, inf}};
     const accel_box half = {{-inf, -inf, x[2]}, {inf, inf, x[2]}};
     const double flat[6] = {x[0], x[1], x[2], 0, 0, 1};
-    if (dice_chance(d, 0.5))
+    if (rng_chance(d, 0.5))
         part_object(p, &endless, PLANE, x);
     else
         part_object(p, &half, PLANE, flat);
 }
 
-void make_huge_and_tiny(struct test_scene *s, struct dice *d, double unused)
+void make_huge_and_tiny(struct test_scene *s, struct rng *d, double unused)
 {
     (void)unused;
     struct part *p = scene_part(s, ACCEL_SPHERES);
@@ -151,22 +151,22 @@ void make_huge_and_tiny(struct test_scene *s, struct dice *d, double unused)
     for (int i = 0; i < 200; i++) {
         double x[3];
         random_point(d, x);
-        part_sphere(p, x, dice_power(d, -20, -2));
+        part_sphere(p, x, rng_power(d, -20, -2));
     }
     p = scene_part(s, ACCEL_OBJECTS);
     for (int i = 0; i < 40; i++)
-        random_ball(p, d, dice_power(d, -20, 20), BALL);
+        random_ball(p, d, rng_power(d, -20, 20), BALL);
     for (int i = 0; i < 4; i++)
         random_plane(p, d);
     for (int i = 0; i < 40; i++)
-        random_crate(p, d, dice_power(d, -20, 10));
+        random_crate(p, d, rng_power(d, -20, 10));
     p = scene_part(s, ACCEL_TRIANGLES);
     for (int i = 0; i < 100; i++)
-        random_triangle(p, d, dice_power(d, -20, 20));
+        random_triangle(p, d, rng_power(d, -20, 20));
 }
 
 /* A negative count leaves out the objects that are ordered as reported. */
-void make_mixed(struct test_scene *s, struct dice *d, double count)
+void make_mixed(struct test_scene *s, struct rng *d, double count)
 {
     const uint32_t n = (uint32_t)fabs(count) / 3;
     make_soup(s, d, n);
@@ -174,16 +174,16 @@ void make_mixed(struct test_scene *s, struct dice *d, double count)
         struct part *p = scene_part(s, ACCEL_OBJECTS);
         p->order = order == 0 || count < 0 ? ACCEL_ORDER_KEY : ACCEL_ORDER_RAW;
         for (uint32_t i = 0; i < n / 4; i++)
-            random_ball(p, d, dice_power(d, -10, -2), i % 2 ? BALL : FILTER);
+            random_ball(p, d, rng_power(d, -10, -2), i % 2 ? BALL : FILTER);
         for (uint32_t i = 0; i < n / 4; i++)
-            random_crate(p, d, dice_power(d, -10, -1));
+            random_crate(p, d, rng_power(d, -10, -1));
         random_plane(p, d);
     }
     struct part *p = scene_part(s, ACCEL_SPHERES);
     for (uint32_t i = 0; i < n; i++) {
         double x[3];
         random_point(d, x);
-        part_sphere(p, x, dice_power(d, -10, -2));
+        part_sphere(p, x, rng_power(d, -10, -2));
     }
     make_soup(s, d, n);
 }

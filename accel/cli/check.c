@@ -5,7 +5,7 @@
 #include "check/check.h"
 
 #include "commands.h"
-#include "tool/crew.h"
+#include "tool/threads.h"
 #include "scenes/ray_text.h"
 
 #include <stdio.h>
@@ -115,7 +115,7 @@ static int check_rays(struct check *check, const request *request)
     check->judged_count = request->judged == 0              ? default_judged(check)
                           : request->judged < request->rays ? request->judged
                                                             : request->rays;
-    check->threads = request->threads == 0 ? crew_size() : (unsigned)request->threads;
+    check->threads = request->threads == 0 ? threads_available() : (unsigned)request->threads;
     if (check->judged_count < check->ray_count && !has_two_kinds(check) &&
         !add_second_opinion(check)) {
         return EXIT_BAD;

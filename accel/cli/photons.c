@@ -3,7 +3,7 @@
  * accel photons: its arguments.
  */
 #include "commands.h"
-#include "tool/crew.h"
+#include "tool/threads.h"
 #include "photons/photons_request.h"
 #include "tool/words.h"
 
@@ -164,7 +164,7 @@ static int run(const struct command *command, int argc, char **argv)
 {
     struct photon_request r = {.run = {.photons = 100000, .reflectance = 0.5, .seed = 1},
                                .count = 100};
-    r.run.threads = crew_size();
+    r.run.threads = threads_available();
     struct arguments arguments = arguments_start(command, argc, argv);
     if (!take_arguments(&arguments, take, &r)) {
         return arguments.exit_code;

@@ -6,7 +6,7 @@
 
 #include "camera_argument.h"
 #include "commands.h"
-#include "tool/crew.h"
+#include "tool/threads.h"
 #include "tool/words.h"
 
 #include <stdlib.h>
@@ -70,8 +70,8 @@ static int fill_output(const struct command *command, const request *request,
 static int load_and_trace(const struct command *command, const request *request, bool quiet,
                           struct output *output)
 {
-    struct tracing tracing = {.threads =
-                                  request->threads == 0 ? crew_size() : (unsigned)request->threads,
+    struct tracing tracing = {.threads = request->threads == 0 ? threads_available()
+                                                               : (unsigned)request->threads,
                               .progress = progress_start(quiet)};
     struct loaded loaded;
     if (!open_scene(&loaded, request->scene, command, &tracing.progress)) {

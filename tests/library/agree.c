@@ -56,7 +56,7 @@ static void prepare(struct job *j)
     j->rays = must_resize(NULL, j->count * sizeof *j->rays);
     j->answers = must_resize(NULL, j->count * sizeof *j->answers);
     accel *judge = build_judge(j);
-    struct dice d = dice_from(j->seed, 2);
+    struct rng d = rng_from(j->seed, 2);
     for (uint64_t i = 0; i < j->count; i++) {
         j->rays[i] = j->family->make(&j->scene, judge, &d, i);
         j->answers[i] = copies(j->maker)
@@ -256,7 +256,8 @@ int main(int argc, char **argv)
     static struct CMUnitTest list[100];
     size_t count = 0;
     if (argc != 2) {
-        fprintf(stderr, "usage: agree NAME of a test, a scene or a family of rays: see catalogue.h\n");
+        fprintf(stderr,
+                "usage: agree NAME of a test, a scene or a family of rays: see catalogue.h\n");
         return 2;
     }
     for (const struct scene_maker *m = scene_makers; m->name; m++)

@@ -192,14 +192,14 @@ static void test_texts(void **state)
     SAYS("\360\237\214\262", "'\360\237\214\262'"); /* a tree */
     SAYS("x\302\233"
          "31m",
-         "'x?31m'");                     /* CSI of C1 */
-    SAYS("x\342\200\256y", "'x?y'");     /* from right to left */
-    SAYS("x\342\200\250y", "'x?y'");     /* line separator */
-    SAYS("\303", "'?'");                 /* cut */
-    SAYS("\303\274\274", "'\303\274?'"); /* one byte too many */
-    SAYS("\300\257", "'?\?'");            /* overlong */
+         "'x?31m'");                       /* CSI of C1 */
+    SAYS("x\342\200\256y", "'x?y'");       /* from right to left */
+    SAYS("x\342\200\250y", "'x?y'");       /* line separator */
+    SAYS("\303", "'?'");                   /* cut */
+    SAYS("\303\274\274", "'\303\274?'");   /* one byte too many */
+    SAYS("\300\257", "'?\?'");             /* overlong */
     SAYS("\355\240\200", "'?\?\?'");       /* half a surrogate pair */
-    SAYS("\364\220\200\200", "'?\?\?\?'");  /* beyond Unicode */
+    SAYS("\364\220\200\200", "'?\?\?\?'"); /* beyond Unicode */
     SAYS("\377\376", "'?\?'");
     SAYS("auto:rays=000000000000000000000000000000000000000\303\274",
          "'000000000000000000000000000000000000000'");
@@ -213,17 +213,17 @@ static void test_any_text(void **state)
 {
     (void)state;
     static const char *const starts[] = {"", "auto:", "auto:rays=", "auto:rays=1,"};
-    struct dice d = dice_from(test_seed(), 4);
+    struct rng d = rng_from(test_seed(), 4);
     assert_non_null(setlocale(LC_CTYPE, "C.UTF-8"));
     for (uint64_t i = 0; i < scaled_count(30000); i++) {
         char text[700];
-        const char *start = starts[dice_below(&d, 4)];
+        const char *start = starts[rng_below(&d, 4)];
         const size_t from = strlen(start),
-                     size = from + dice_below(&d, dice_chance(&d, 0.1) ? 600 : 60);
+                     size = from + rng_below(&d, rng_chance(&d, 0.1) ? 600 : 60);
         memcpy(text, start, from);
         for (size_t j = from; j < size; j++)
             text[j] =
-                (char)(dice_chance(&d, 0.5) ? 1 + dice_below(&d, 255) : 128 + dice_below(&d, 120));
+                (char)(rng_chance(&d, 0.5) ? 1 + rng_below(&d, 255) : 128 + rng_below(&d, 120));
         text[size] = '\0';
         text[from] = size > from ? '*' : '\0'; /* never legal */
         if (size > from)

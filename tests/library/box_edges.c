@@ -24,21 +24,21 @@ static accel *build(const accel_box *box, const char *config)
 
 /* At a point of an edge along axis `along`; every other ray begins before its origin, as those are
  * tested another way. */
-static accel_ray at_edge(const accel_box *box, int along, struct dice *d)
+static accel_ray at_edge(const accel_box *box, int along, struct rng *d)
 {
     double org[3], dir[3];
     for (int k = 0; k < 3; k++) {
-        const double side = dice_chance(d, 0.5) ? box->lo[k] : box->hi[k];
-        const double at = k == along ? dice_range(d, box->lo[k], box->hi[k]) : side;
-        org[k] = dice_range(d, -2, 2);
+        const double side = rng_chance(d, 0.5) ? box->lo[k] : box->hi[k];
+        const double at = k == along ? rng_range(d, box->lo[k], box->hi[k]) : side;
+        org[k] = rng_range(d, -2, 2);
         dir[k] = at - org[k];
     }
     accel_ray ray = accel_ray_from(org, dir);
-    ray.tmin = dice_chance(d, 0.5) ? -1.0 : 0.0;
+    ray.tmin = rng_chance(d, 0.5) ? -1.0 : 0.0;
     return ray;
 }
 
-static void try_box(const accel_box *box, const char *config, struct dice *d)
+static void try_box(const accel_box *box, const char *config, struct rng *d)
 {
     accel *judge = build(box, "linear"), *a = build(box, config);
     accel_box padded;
@@ -58,12 +58,12 @@ static void test_edges(void **state)
     (void)state;
     struct tested *list;
     const size_t count = tested_configs(&list);
-    struct dice d = dice_from(test_seed(), 61);
+    struct rng d = rng_from(test_seed(), 61);
     for (int i = 0; i < 20; i++) {
         accel_box box;
         for (int k = 0; k < 3; k++) {
-            box.lo[k] = dice_unit(&d);
-            box.hi[k] = box.lo[k] + dice_unit(&d);
+            box.lo[k] = rng_unit(&d);
+            box.hi[k] = box.lo[k] + rng_unit(&d);
         }
         for (size_t j = 0; j < count; j++)
             try_box(&box, list[j].config, &d);

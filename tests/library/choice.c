@@ -31,7 +31,7 @@ static bool noted(const accel_info *info, const char *words)
 
 static void expect_same_answers(const struct test_scene *s, const accel *a, const accel *b)
 {
-    struct dice d = dice_from(test_seed(), 3);
+    struct rng d = rng_from(test_seed(), 3);
     for (uint64_t i = 0; i < RAYS; i++) {
         const accel_ray ray = ray_families->make(s, a, &d, i);
         const struct answer x = ask(a, &ray, true), y = ask(b, &ray, true);
@@ -43,7 +43,7 @@ static void expect_same_answers(const struct test_scene *s, const accel *a, cons
 static void try_pilot(const struct test_scene *s, const accel *linear, const char *family)
 {
     accel_ray pilot[PILOT];
-    struct dice d = dice_from(test_seed(), 5);
+    struct rng d = rng_from(test_seed(), 5);
     for (uint64_t i = 0; i < PILOT; i++)
         pilot[i] = ray_family_find(family)->make(s, linear, &d, i);
     const accel_hooks hooks = {.pilot = pilot, .pilot_count = PILOT};

@@ -10,7 +10,7 @@
 #include "core/box.h"
 #include "cluster/cluster.h"
 #include "cmocka_all.h"
-#include "dice.h"
+#include "rng.h"
 
 /* For each primitive, at most: about twice the looks of the worst family, and what it takes where
  * the user's connectivity leaves every primitive alone. */
@@ -20,82 +20,82 @@ enum { SIZES = 3 };
 static const uint32_t sizes[SIZES] = {1000, 16000, 128000};
 
 /* A family fills in sphere i of n. */
-typedef void family(struct dice *d, uint32_t i, uint32_t n, double out[4]);
+typedef void family(struct rng *d, uint32_t i, uint32_t n, double out[4]);
 
-static void scatter(struct dice *d, double side, double radius, double out[4])
+static void scatter(struct rng *d, double side, double radius, double out[4])
 {
     for (int k = 0; k < 3; k++)
-        out[k] = dice_unit(d) * side;
+        out[k] = rng_unit(d) * side;
     out[3] = radius;
 }
 
-static void same(struct dice *d, uint32_t i, uint32_t n, double out[4])
+static void same(struct rng *d, uint32_t i, uint32_t n, double out[4])
 {
     (void)d, (void)i, (void)n;
     memcpy(out, (double[4]){1, 2, 3, 1}, 4 * sizeof *out);
 }
 
-static void even(struct dice *d, uint32_t i, uint32_t n, double out[4])
+static void even(struct rng *d, uint32_t i, uint32_t n, double out[4])
 {
     (void)i;
     scatter(d, 1.0, 0.2 / cbrt(n), out);
 }
 
-static void dense(struct dice *d, uint32_t i, uint32_t n, double out[4])
+static void dense(struct rng *d, uint32_t i, uint32_t n, double out[4])
 {
     (void)i;
     scatter(d, 1.0, 2.0 / cbrt(n), out);
 }
 
 /* One crowded cell, and a single sphere that makes the scene large. */
-static void crowded(struct dice *d, uint32_t i, uint32_t n, double out[4])
+static void crowded(struct rng *d, uint32_t i, uint32_t n, double out[4])
 {
     (void)n;
     scatter(d, i == 0 ? 1e6 : 1e-6, 1e-9, out);
 }
 
 /* Half in one place, half everywhere. */
-static void uneven(struct dice *d, uint32_t i, uint32_t n, double out[4])
+static void uneven(struct rng *d, uint32_t i, uint32_t n, double out[4])
 {
     (void)n;
     scatter(d, i % 2 ? 1.0 : 1e-3, 1e-6, out);
 }
 
 /* As many at each distance from a corner, on a log scale. */
-static void corner(struct dice *d, uint32_t i, uint32_t n, double out[4])
+static void corner(struct rng *d, uint32_t i, uint32_t n, double out[4])
 {
     (void)i, (void)n;
-    const double side = dice_power(d, -30, 0);
+    const double side = rng_power(d, -30, 0);
     scatter(d, side, side * 1e-3, out);
 }
 
-static void all_sizes(struct dice *d, uint32_t i, uint32_t n, double out[4])
+static void all_sizes(struct rng *d, uint32_t i, uint32_t n, double out[4])
 {
     (void)i, (void)n;
-    scatter(d, 1.0, dice_power(d, -30, -1), out);
+    scatter(d, 1.0, rng_power(d, -30, -1), out);
 }
 
 /* Sizes with gaps: a class for each. */
-static void many_classes(struct dice *d, uint32_t i, uint32_t n, double out[4])
+static void many_classes(struct rng *d, uint32_t i, uint32_t n, double out[4])
 {
     (void)n;
     scatter(d, 1.0, ldexp(1.0, -2 - 2 * (int)(i % 8)), out);
 }
 
-static void line(struct dice *d, uint32_t i, uint32_t n, double out[4])
+static void line(struct rng *d, uint32_t i, uint32_t n, double out[4])
 {
     (void)d, (void)n;
     memcpy(out, (double[4]){i, 0, 0, 0.1}, 4 * sizeof *out);
 }
 
 /* A Cantor set: clusters of clusters, at every scale. */
-static void dust(struct dice *d, uint32_t i, uint32_t n, double out[4])
+static void dust(struct rng *d, uint32_t i, uint32_t n, double out[4])
 {
     (void)i, (void)n;
     memset(out, 0, 3 * sizeof *out);
     for (int level = 1; level <= 8; level++)
         for (int k = 0; k < 3; k++)
-            out[k] += 2.0 * dice_below(d, 2) / pow(3.0, level);
+            out[k] += 2.0 * rng_below(d, 2) / pow(3.0, level);
     out[3] = 1e-5;
 }
 
@@ -144,20 +144,20 @@ static double cluster(const accel_scene *scene, struct cluster_rule rule)
     check_whole(&a, &found);
     assert_in_range(a.memory.peak - before, 0, 65536 + MOST_BYTES * (size_t)a.prims.count);
     print_message("%6.1f bytes, ", (double)(a.memory.peak - before) / a.prims.count);
-    const double looks = (double)found.looks;
+    const double visits = (double)found.visits;
     accel_cluster_free(&a.memory, &found);
     accel_primitives_free(&a.memory, &a.prims);
     assert_int_equal(a.memory.bytes, 0);
-    return looks;
+    return visits;
 }
 
 static void measure(size_t number, uint32_t n, struct cluster_rule rule)
 {
-    struct dice dice = {number, 0};
+    struct rng rng = {number, 0};
     double(*spheres)[4] = malloc(n * sizeof *spheres);
     assert_non_null(spheres);
     for (uint32_t i = 0; i < n; i++)
-        families[number].fill(&dice, i, n, spheres[i]);
+        families[number].fill(&rng, i, n, spheres[i]);
     const accel_geometry geometry = {.type = ACCEL_SPHERES,
                                      .spheres = {.spheres = spheres[0], .count = n}};
     const double each = cluster(&(accel_scene){&geometry, 1}, rule) / n;

@@ -267,7 +267,7 @@ static void test_hostile(void **state)
 
 static uint64_t hash_answers(const accel *a)
 {
-    struct dice d = dice_from(7, 7);
+    struct rng d = rng_from(7, 7);
     uint64_t hash = HASH_START;
     for (uint64_t i = 0; i < 200; i++) {
         const accel_ray ray = ray_families->make(&scene, a, &d, i);

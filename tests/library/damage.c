@@ -76,28 +76,28 @@ static void begin(struct wound *w, const struct block *b, size_t at, size_t size
     memcpy(w->before, b->at + at, w->size);
 }
 
-static void flip_bit(struct wound *w, const struct block *b, struct dice *d)
+static void flip_bit(struct wound *w, const struct block *b, struct rng *d)
 {
-    begin(w, b, (size_t)(dice_unit(d) * (double)b->size), 1);
-    b->at[w->from] ^= (unsigned char)(1u << dice_below(d, 8));
+    begin(w, b, (size_t)(rng_unit(d) * (double)b->size), 1);
+    b->at[w->from] ^= (unsigned char)(1u << rng_below(d, 8));
     w->how = "a bit flipped";
 }
 
 /* Overwrites whole words with the byte; 256: with random ones. */
-static void write_words(struct wound *w, const struct block *b, struct dice *d, size_t size,
+static void write_words(struct wound *w, const struct block *b, struct rng *d, size_t size,
                         int byte)
 {
-    begin(w, b, (size_t)(dice_unit(d) * (double)b->size) & ~(size_t)3, size);
+    begin(w, b, (size_t)(rng_unit(d) * (double)b->size) & ~(size_t)3, size);
     for (size_t i = 0; i < w->size; i++)
-        b->at[w->from + i] = (unsigned char)(byte < 256 ? (uint32_t)byte : dice_below(d, 256));
+        b->at[w->from + i] = (unsigned char)(byte < 256 ? (uint32_t)byte : rng_below(d, 256));
     w->how = byte == 256 ? "random words" : byte ? "words of ones" : "words of zeros";
 }
 
 /* Copies bytes from another place of the block: what is there is often legal. */
-static void copy_words(struct wound *w, const struct block *b, struct dice *d)
+static void copy_words(struct wound *w, const struct block *b, struct rng *d)
 {
-    const size_t from = (size_t)(dice_unit(d) * (double)b->size) & ~(size_t)3;
-    begin(w, b, (size_t)(dice_unit(d) * (double)b->size) & ~(size_t)3, 4u << dice_below(d, 4));
+    const size_t from = (size_t)(rng_unit(d) * (double)b->size) & ~(size_t)3;
+    begin(w, b, (size_t)(rng_unit(d) * (double)b->size) & ~(size_t)3, 4u << rng_below(d, 4));
     w->size = w->size < b->size - from ? w->size : b->size - from;
     memmove(b->at + w->from, b->at + from, w->size);
     w->how = "words from elsewhere in the block";
@@ -105,13 +105,13 @@ static void copy_words(struct wound *w, const struct block *b, struct dice *d)
 
 /* What no check of ranges can see: a double's sign, its neighbour, infinity; an index's neighbour.
  */
-static void change_word(struct wound *w, const struct block *b, struct dice *d)
+static void change_word(struct wound *w, const struct block *b, struct rng *d)
 {
-    const size_t size = b->size < 8 || dice_chance(d, 0.3) ? 4 : 8;
+    const size_t size = b->size < 8 || rng_chance(d, 0.3) ? 4 : 8;
     uint64_t word = 0;
-    begin(w, b, (size_t)(dice_unit(d) * (double)(b->size / size)) * size, size);
+    begin(w, b, (size_t)(rng_unit(d) * (double)(b->size / size)) * size, size);
     memcpy(&word, b->at + w->from, w->size);
-    switch (dice_below(d, 5)) {
+    switch (rng_below(d, 5)) {
     case 0:
         word ^= 0x8000000000000000;
         break;
@@ -131,17 +131,17 @@ static void change_word(struct wound *w, const struct block *b, struct dice *d)
     w->how = "a word changed";
 }
 
-static void hurt(struct wound *w, const struct blocks *blocks, struct dice *d, enum sort sort)
+static void hurt(struct wound *w, const struct blocks *blocks, struct rng *d, enum sort sort)
 {
-    const struct block *b = &blocks->at[dice_below(d, (uint32_t)blocks->count)];
+    const struct block *b = &blocks->at[rng_below(d, (uint32_t)blocks->count)];
     if (sort == BIT)
         flip_bit(w, b, d);
     else if (sort == WORD)
         change_word(w, b, d);
-    else if (dice_chance(d, 0.3))
+    else if (rng_chance(d, 0.3))
         copy_words(w, b, d);
     else
-        write_words(w, b, d, 4u << dice_below(d, 6), (int[]){0, 255, 256, 256}[dice_below(d, 4)]);
+        write_words(w, b, d, 4u << rng_below(d, 6), (int[]){0, 255, 256, 256}[rng_below(d, 4)]);
 }
 
 static void heal(const struct wound *w)
@@ -155,7 +155,7 @@ enum { RAYS = 40 };
 
 static uint64_t hash_answers(const accel *a, const struct test_scene *s)
 {
-    struct dice d = dice_from(test_seed(), 3);
+    struct rng d = rng_from(test_seed(), 3);
     uint64_t hash = HASH_START;
     for (uint64_t i = 0; i < RAYS; i++) {
         const accel_ray ray = ray_families->make(s, a, &d, i);
@@ -195,11 +195,11 @@ static void examine(struct patient *p, const struct wound *w, size_t wounds, enu
         fail_msg("%s on %s: '%s'", p->config, p->name, error.text);
 }
 
-static void hurt_and_examine(struct patient *p, struct dice *d, enum sort sort)
+static void hurt_and_examine(struct patient *p, struct rng *d, enum sort sort)
 {
     enum { MOST_WOUNDS = 3 };
     struct wound w[MOST_WOUNDS];
-    const size_t wounds = sort == MORE ? 1 + dice_below(d, MOST_WOUNDS) : 1;
+    const size_t wounds = sort == MORE ? 1 + rng_below(d, MOST_WOUNDS) : 1;
     for (size_t i = 0; i < wounds; i++)
         hurt(&w[i], &p->blocks, d, sort);
     examine(p, w, wounds, sort);
@@ -237,7 +237,7 @@ static void try_config(const struct test_scene *s, const char *name, const char 
                        uint64_t wounds)
 {
     struct patient p;
-    struct dice d = dice_from(test_seed(), 7);
+    struct rng d = rng_from(test_seed(), 7);
     open_patient(&p, s, name, config);
     for (uint64_t i = 0; i < wounds; i++)
         hurt_and_examine(&p, &d, (enum sort)(i % SORTS));

@@ -115,13 +115,13 @@ static void try_lone_ball(const char *config, accel_order order)
 {
     const struct ball ball = {{1000, 1000, 1000}, 1, 1.5};
     accel *a = build_balls(&ball, 1, order, config);
-    struct dice d = dice_from(test_seed(), 91);
+    struct rng d = rng_from(test_seed(), 91);
     uint32_t through = 0;
     for (int i = 0; i < 2000; i++) {
         double from[3], at[3], dir[3], apart = 0, cosine = 0;
         for (int k = 0; k < 3; k++) {
-            from[k] = ball.centre[k] + dice_range(&d, -5, 5);
-            at[k] = ball.centre[k] + dice_range(&d, -1, 1);
+            from[k] = ball.centre[k] + rng_range(&d, -5, 5);
+            at[k] = ball.centre[k] + rng_range(&d, -1, 1);
         }
         if (unit(ball.centre, from, dir) < 1.01)
             continue;
@@ -164,12 +164,12 @@ static void test_many_balls(void **state)
 {
     (void)state;
     struct ball balls[BALLS];
-    struct dice d = dice_from(test_seed(), 92);
+    struct rng d = rng_from(test_seed(), 92);
     for (int i = 0; i < BALLS; i++) {
         for (int k = 0; k < 3; k++)
             balls[i].centre[k] = 1000 + i / (k == 2 ? 16 : k == 1 ? 4 : 1) % 4;
-        balls[i].radius = dice_range(&d, 0.2, 0.49);
-        balls[i].index = dice_chance(&d, 0.3) ? 0 : dice_range(&d, 0.6, 2.5);
+        balls[i].radius = rng_range(&d, 0.2, 0.49);
+        balls[i].index = rng_chance(&d, 0.3) ? 0 : rng_range(&d, 0.6, 2.5);
     }
     size_t kinds;
     const accel_kind_info *const *kind = accel_kinds(&kinds);
@@ -180,8 +180,8 @@ static void test_many_balls(void **state)
         for (int r = 0; r < 1500; r++) {
             double from[3], at[3], dir[3];
             for (int k = 0; k < 3; k++) {
-                from[k] = dice_range(&d, 990, 1000 - 1);
-                at[k] = dice_range(&d, 1000, 1000 + 3);
+                from[k] = rng_range(&d, 990, 1000 - 1);
+                at[k] = rng_range(&d, 1000, 1000 + 3);
             }
             unit(from, at, dir);
             accel_ray ray = accel_ray_from(from, dir), same = ray;

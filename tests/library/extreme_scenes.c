@@ -28,13 +28,13 @@ static accel *build_timed(const struct test_scene *s, const char *kind, double *
 /* `count` primitives of a type, all the same, or spread out. */
 static void make_pile(struct test_scene *s, accel_type type, uint32_t count, bool spread)
 {
-    struct dice d = dice_from(1, 1);
+    struct rng d = rng_from(1, 1);
     scene_open(s);
     struct part *p = scene_part(s, type);
     for (uint32_t i = 0; i < count; i++) {
         double x[6] = {0.25, 0.25, 0.25, 1.0, 1.0, 1.0};
         for (int k = 0; spread && k < 3; k++)
-            x[k] = 100 * dice_unit(&d);
+            x[k] = 100 * rng_unit(&d);
         for (int k = 0; k < 3; k++)
             x[3 + k] = x[k] + 0.75;
         const accel_box box = {{x[0], x[1], x[2]}, {x[3], x[4], x[5]}};
@@ -174,7 +174,7 @@ enum { MOST_CONFIGS = 128 };
 static double work(const accel *a, const struct test_scene *s, const struct ray_family *family,
                    uint64_t count)
 {
-    struct dice d = dice_from(test_seed(), 61);
+    struct rng d = rng_from(test_seed(), 61);
     accel_query q = {.user = NULL};
     accel_hit hit;
     for (uint64_t i = 0; i < count; i++) {

@@ -64,7 +64,7 @@ static void *checked(void *user, void *old, size_t from, size_t to)
 
 static uint64_t hash_answers(const accel *a, const struct test_scene *s)
 {
-    struct dice d = dice_from(5, 5);
+    struct rng d = rng_from(5, 5);
     uint64_t hash = HASH_START;
     for (uint64_t i = 0; i < 50; i++) {
         const accel_ray ray = ray_families->make(s, a, &d, i);

@@ -70,23 +70,23 @@ static void normalize(double a[3])
         a[k] /= largest;
 }
 
-static void any_direction(struct dice *d, double out[3])
+static void any_direction(struct rng *d, double out[3])
 {
     do {
         for (int k = 0; k < 3; k++)
-            out[k] = dice_range(d, -1, 1);
+            out[k] = rng_range(d, -1, 1);
     } while (dot(out, out) > 1 || dot(out, out) < 0.01);
     normalize(out);
 }
 
 /* ----------------------------------------------------------------------- scenes ---- */
 
-static void make_balls(struct bench *b, const struct place *p, struct dice *d)
+static void make_balls(struct bench *b, const struct place *p, struct rng *d)
 {
     for (int i = 0; i < SPHERES; i++) {
         for (int k = 0; k < 3; k++)
-            b->balls[i].centre[k] = p->offset + p->radius * dice_range(d, -4, 4);
-        b->balls[i].radius = p->radius * dice_range(d, 0.5, 1.5);
+            b->balls[i].centre[k] = p->offset + p->radius * rng_range(d, -4, 4);
+        b->balls[i].radius = p->radius * rng_range(d, 0.5, 1.5);
     }
 }
 
@@ -110,7 +110,7 @@ static struct forms build_host_forms(const struct ball *balls)
     return f;
 }
 
-static void open_bench(struct bench *b, const struct place *p, struct dice *d)
+static void open_bench(struct bench *b, const struct place *p, struct rng *d)
 {
     make_balls(b, p, d);
     scene_open(&b->scene);
@@ -134,24 +134,24 @@ static void close_bench(struct bench *b)
 /* ------------------------------------------------------------------------- rays ---- */
 
 /* From a camera 2 to 2000 radii away. */
-static accel_ray first_ray(const struct bench *b, struct dice *d)
+static accel_ray first_ray(const struct bench *b, struct rng *d)
 {
-    const struct ball *ball = &b->balls[dice_below(d, SPHERES)];
+    const struct ball *ball = &b->balls[rng_below(d, SPHERES)];
     double from[3], to[3], dir[3];
     any_direction(d, from);
     any_direction(d, to);
-    const double far = dice_power(d, 1, 11), within = dice_unit(d);
+    const double far = rng_power(d, 1, 11), within = rng_unit(d);
     for (int k = 0; k < 3; k++) {
         from[k] = ball->centre[k] + far * ball->radius * from[k];
         dir[k] = ball->centre[k] + within * ball->radius * to[k] - from[k];
     }
-    if (dice_chance(d, 0.5))
+    if (rng_chance(d, 0.5))
         normalize(dir);
     return accel_ray_from(from, dir);
 }
 
 /* A direction of cosine `up` to the normal. */
-static void lean(struct dice *d, const double normal[3], double up, double out[3])
+static void lean(struct rng *d, const double normal[3], double up, double out[3])
 {
     double along[3], part;
     any_direction(d, along);
@@ -174,7 +174,7 @@ static void bend(const double dir[3], const double normal[3], double index, doub
         out[k] = (reflected ? 1 : ratio) * dir[k] + away * normal[k];
 }
 
-static accel_ray next_ray(const struct bench *b, struct dice *d, const accel_ray *ray,
+static accel_ray next_ray(const struct bench *b, struct rng *d, const accel_ray *ray,
                           const accel_hit *hit, enum way way)
 {
     double at[3], normal[3], dir[3], old[3];
@@ -185,7 +185,7 @@ static accel_ray next_ray(const struct bench *b, struct dice *d, const accel_ray
     }
     normalize(old);
     normalize(normal);
-    const double slight = dice_power(d, -56, -3);
+    const double slight = rng_power(d, -56, -3);
     switch (way) {
     case OUTWARD:
     case INWARD:
@@ -203,8 +203,8 @@ static accel_ray next_ray(const struct bench *b, struct dice *d, const accel_ray
     default:
         lean(d, normal, way == GRAZING_OUT ? slight : way == GRAZING_IN ? -slight : 0, dir);
     }
-    if (dice_chance(d, 0.3)) {
-        const double length = dice_power(d, -20, 20);
+    if (rng_chance(d, 0.3)) {
+        const double length = rng_power(d, -20, 20);
         for (int k = 0; k < 3; k++)
             dir[k] *= length;
     }
@@ -294,14 +294,14 @@ static void judge(struct count c[2], const struct bench *b, const struct place *
 /* Goes on from hit to hit, each time in some way. */
 static void shoot(const struct place *p, uint64_t count, struct count c[WAYS][2])
 {
-    struct dice d = dice_from(test_seed(), 93);
+    struct rng d = rng_from(test_seed(), 93);
     struct bench b;
     open_bench(&b, p, &d);
     accel_ray ray = first_ray(&b, &d);
     for (uint64_t i = 0; i < count;) {
         accel_hit hit;
         const enum way way = (enum way)(i % WAYS);
-        if (!accel_closest(b.judge, &ray, &hit, NULL) || dice_chance(&d, 0.02)) {
+        if (!accel_closest(b.judge, &ray, &hit, NULL) || rng_chance(&d, 0.02)) {
             ray = first_ray(&b, &d);
             continue;
         }
@@ -350,7 +350,7 @@ static void test_ways(void **state)
  * that hold it, with the same bits, and without skip there is one more. Not for rays that graze:
  * double does not know both of their crossings. */
 static bool try_intervals(const accel *a, const struct ball *ball, const accel_ray *ray,
-                          struct dice *d)
+                          struct rng *d)
 {
     accel_ray line = *ray, with = *ray;
     line.tmin = -(double)INFINITY;
@@ -379,8 +379,8 @@ static bool try_intervals(const accel *a, const struct ball *ball, const accel_r
                            (t[0] + t[1]) / 2};
     const uint32_t count = sizeof ends / sizeof *ends;
     for (int i = 0; i < 20; i++) {
-        with.tmin = ends[dice_below(d, count)];
-        with.tmax = ends[dice_below(d, count)];
+        with.tmin = ends[rng_below(d, count)];
+        with.tmax = ends[rng_below(d, count)];
         const struct own met = own_hits(a, &with);
         assert_int_equal(met.count, with.tmin < kept.t[0] && kept.t[0] < with.tmax);
         assert_true(met.count == 0 || met.t[0] == kept.t[0]);
@@ -392,7 +392,7 @@ static void test_intervals(void **state)
 {
     (void)state;
     for (size_t p = 0; p < sizeof places / sizeof *places; p++) {
-        struct dice d = dice_from(test_seed(), 94);
+        struct rng d = rng_from(test_seed(), 94);
         struct bench b;
         open_bench(&b, &places[p], &d);
         uint64_t tried = 0;
@@ -417,7 +417,7 @@ static void test_intervals(void **state)
  * gives it. */
 static void go_round(const struct place *p, double cosine, bool host)
 {
-    struct dice d = dice_from(test_seed(), 95);
+    struct rng d = rng_from(test_seed(), 95);
     struct bench b;
     open_bench(&b, p, &d);
     const accel *a = host ? b.host.a[0] : b.native.a[0];

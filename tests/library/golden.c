@@ -52,7 +52,7 @@ static uint64_t hash_answers(const char *config, const struct golden *g)
     struct test_scene s;
     scene_make(&s, scene_maker_find(g->scene), SEED);
     accel *a = must_build(&s, config), *judge = must_build(&s, "linear");
-    struct dice d = dice_from(SEED, 71);
+    struct rng d = rng_from(SEED, 71);
     uint64_t hash = HASH_START;
     for (uint64_t i = 0; i < RAYS; i++) {
         const accel_ray ray = ray_family_find(g->rays)->make(&s, judge, &d, i);

@@ -37,7 +37,7 @@ static void check_ray(const accel *a, const char *kind, const accel_ray *ray, st
              (long long)e->list[0].under, hit ? h.geom : 0, hit ? h.prim : 0, hit ? h.t : 0);
 }
 
-typedef accel_ray make_line(const struct test_scene *s, struct dice *d, struct line *l);
+typedef accel_ray make_line(const struct test_scene *s, struct rng *d, struct line *l);
 
 static void try_scene(const char *name, make_line *make, uint64_t count)
 {
@@ -45,12 +45,12 @@ static void try_scene(const char *name, make_line *make, uint64_t count)
     struct test_scene s;
     scene_make(&s, scene_maker_find(name), test_seed());
     struct forms all = build_forms(&s);
-    struct dice d = dice_from(test_seed(), 31);
+    struct rng d = rng_from(test_seed(), 31);
     uint64_t hits = 0;
     for (uint64_t i = 0; i < count; i++) {
         struct line l;
         accel_ray ray = make(&s, &d, &l);
-        const bool backwards = dice_chance(&d, 0.3);
+        const bool backwards = rng_chance(&d, 0.3);
         ray.tmin = backwards ? -(double)INFINITY : 0.0;
         e.count = lattice_crossings(&s, &l, backwards, e.list, ALL_HITS);
         for (size_t k = 0; k < all.count; k++)

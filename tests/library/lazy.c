@@ -30,7 +30,7 @@ static void must_be_valid(const accel *a, const char *config)
 /* One ray of the mixed family, by all four queries. */
 static void shoot(const struct test_scene *s, const accel *a, uint64_t i)
 {
-    struct dice d = dice_from(test_seed(), i);
+    struct rng d = rng_from(test_seed(), i);
     const accel_ray ray = ray_families->make(s, a, &d, i);
     ask(a, &ray, true);
 }

@@ -70,12 +70,12 @@ static void move_primitive(const struct change *c, struct part *to, const struct
 }
 
 /* order[i]: where primitive i of a part comes from. */
-static void make_order(uint32_t *order, uint32_t count, bool shuffle, struct dice *d)
+static void make_order(uint32_t *order, uint32_t count, bool shuffle, struct rng *d)
 {
     for (uint32_t i = 0; i < count; i++)
         order[i] = i;
     for (uint32_t i = count; shuffle && i > 1; i--) {
-        const uint32_t j = dice_below(d, i), kept = order[i - 1];
+        const uint32_t j = rng_below(d, i), kept = order[i - 1];
         order[i - 1] = order[j];
         order[j] = kept;
     }
@@ -90,7 +90,7 @@ struct changed {
 
 static void change_scene(struct changed *to, const struct test_scene *from, const struct change *c)
 {
-    struct dice d = dice_from(test_seed() + c->round, 51);
+    struct rng d = rng_from(test_seed() + c->round, 51);
     scene_open(&to->scene);
     to->parts = from->count;
     assert_true(from->count <= 8);
@@ -202,7 +202,7 @@ static void try_kind(const char *kind, const char *name, const struct test_scene
                      const struct changed *to, const struct change *c)
 {
     accel *a = must_build(s, kind), *b = must_build(&to->scene, kind);
-    struct dice d = dice_from(test_seed(), 52);
+    struct rng d = rng_from(test_seed(), 52);
     const uint64_t rays = scaled_count(c->rays ? c->rays : RAYS);
     uint64_t hits = 0;
     for (uint64_t i = 0; i < rays; i++) {
@@ -390,7 +390,7 @@ static void test_ends(void **state)
         struct test_scene s;
         scene_make(&s, scene_maker_find(scenes[i]), test_seed());
         struct forms all = build_forms(&s);
-        struct dice d = dice_from(test_seed(), 54);
+        struct rng d = rng_from(test_seed(), 54);
         uint64_t hits = 0;
         const uint64_t count = scaled_count(5000);
         for (uint64_t r = 0; r < count; r++) {
@@ -417,7 +417,7 @@ static void test_cuts(void **state)
         scene_make(&s, scene_maker_find(scenes[i]), test_seed());
         for (size_t k = 0; k < kinds; k++) {
             accel *a = must_build(&s, kind[k]->name);
-            struct dice d = dice_from(test_seed(), 53);
+            struct rng d = rng_from(test_seed(), 53);
             for (uint64_t r = 0; r < RAYS; r++) {
                 const accel_ray ray = ray_families->make(&s, a, &d, r);
                 struct list all;

@@ -15,41 +15,41 @@
 #include "modes.h"
 
 /* Any magnitude up to the largest coordinate, small integers, and the ends of double. */
-static double extreme(struct dice *d)
+static double extreme(struct rng *d)
 {
-    const double sign = dice_chance(d, 0.5) ? 1 : -1;
-    switch (dice_below(d, 6)) {
+    const double sign = rng_chance(d, 0.5) ? 1 : -1;
+    switch (rng_below(d, 6)) {
     case 0:
-        return sign * dice_below(d, 5);
+        return sign * rng_below(d, 5);
     case 1:
-        return sign * dice_power(d, -3, 4);
+        return sign * rng_power(d, -3, 4);
     case 2:
-        return sign * dice_power(d, -1074, -1000);
+        return sign * rng_power(d, -1074, -1000);
     case 3:
-        return sign * dice_power(d, 980, 1000);
+        return sign * rng_power(d, 980, 1000);
     case 4:
-        return sign * dice_power(d, -1074, 1000);
+        return sign * rng_power(d, -1074, 1000);
     default:
-        return sign * (dice_chance(d, 0.5) ? 0.0 : dice_chance(d, 0.5) ? DBL_MIN : 0x1p-1074);
+        return sign * (rng_chance(d, 0.5) ? 0.0 : rng_chance(d, 0.5) ? DBL_MIN : 0x1p-1074);
     }
 }
 
-static double near_by(struct dice *d, double x)
+static double near_by(struct rng *d, double x)
 {
     const double inf = (double)INFINITY;
-    switch (dice_below(d, 4)) {
+    switch (rng_below(d, 4)) {
     case 0:
         return x;
     case 1:
-        return nextafter(x, dice_chance(d, 0.5) ? inf : -inf);
+        return nextafter(x, rng_chance(d, 0.5) ? inf : -inf);
     case 2:
-        return x * (1.0 + dice_range(d, -1e-14, 1e-14));
+        return x * (1.0 + rng_range(d, -1e-14, 1e-14));
     default:
         return extreme(d);
     }
 }
 
-static accel_box random_box(struct dice *d)
+static accel_box random_box(struct rng *d)
 {
     accel_box b;
     for (int k = 0; k < 3; k++) {
@@ -61,7 +61,7 @@ static accel_box random_box(struct dice *d)
 }
 
 /* Some sides further out. */
-static accel_box larger_box(struct dice *d, const accel_box *b)
+static accel_box larger_box(struct rng *d, const accel_box *b)
 {
     accel_box l = *b;
     for (int k = 0; k < 3; k++) {
@@ -72,34 +72,34 @@ static accel_box larger_box(struct dice *d, const accel_box *b)
 }
 
 /* A ray may start and point anywhere that is finite. */
-static double largest(struct dice *d)
+static double largest(struct rng *d)
 {
-    const double x = dice_chance(d, 0.5) ? DBL_MAX : dice_power(d, 1018, 1024);
-    return dice_chance(d, 0.5) ? x : -x;
+    const double x = rng_chance(d, 0.5) ? DBL_MAX : rng_power(d, 1018, 1024);
+    return rng_chance(d, 0.5) ? x : -x;
 }
 
-static double origin(struct dice *d, double lo, double hi)
+static double origin(struct rng *d, double lo, double hi)
 {
-    if (dice_chance(d, 0.1))
+    if (rng_chance(d, 0.1))
         return largest(d);
-    return dice_chance(d, 0.4) ? extreme(d) : near_by(d, dice_chance(d, 0.5) ? lo : hi);
+    return rng_chance(d, 0.4) ? extreme(d) : near_by(d, rng_chance(d, 0.5) ? lo : hi);
 }
 
 /* As accel_closest prepares it. */
-static void prepare(struct query *q, struct dice *d, const accel_box *b)
+static void prepare(struct query *q, struct rng *d, const accel_box *b)
 {
     memset(q, 0, sizeof *q);
     for (int k = 0; k < 3; k++) {
         q->org[k] = origin(d, b->lo[k], b->hi[k]);
-        q->dir[k] = dice_chance(d, 0.1) ? largest(d) : extreme(d);
+        q->dir[k] = rng_chance(d, 0.1) ? largest(d) : extreme(d);
         const bool negative = q->dir[k] < 0, parallel = q->dir[k] == 0;
         q->inv[k] = parallel ? 0.0 : query_inverse(q->dir[k]);
         q->parallel |= (uint32_t)parallel << k;
         q->sign |= (uint32_t)negative << k;
         q->near[k] = (uint8_t)(negative ? k + 3 : k);
     }
-    q->tmin = dice_chance(d, 0.6) ? 0.0 : extreme(d);
-    q->tmax = dice_chance(d, 0.6) ? (double)INFINITY : extreme(d);
+    q->tmin = rng_chance(d, 0.6) ? 0.0 : extreme(d);
+    q->tmax = rng_chance(d, 0.6) ? (double)INFINITY : extreme(d);
     q->limit = (double)INFINITY;
 }
 
@@ -156,18 +156,18 @@ __attribute__((noinline)) static bool pair_meets(const struct query *q, const ac
 }
 
 /* A limit at or next to where one of the boxes begins. */
-static void set_limit(struct query *q, struct dice *d, const accel_box *b)
+static void set_limit(struct query *q, struct rng *d, const accel_box *b)
 {
     const struct interval s = query_box(q, b);
-    if (dice_chance(d, 0.7) && !isnan(s.a))
-        q->limit = dice_chance(d, 0.5) ? s.a : near_by(d, s.a);
+    if (rng_chance(d, 0.7) && !isnan(s.a))
+        q->limit = rng_chance(d, 0.5) ? s.a : near_by(d, s.a);
 }
 
 /* Counts violations in one mode; nothing of cmocka runs while the mode is set. */
 static uint64_t try_mode(const struct mode *m, uint64_t count)
 {
     uint64_t wrong = 0;
-    struct dice d = dice_from(test_seed(), (uint64_t)(m - modes));
+    struct rng d = rng_from(test_seed(), (uint64_t)(m - modes));
     for (uint64_t i = 0; i < count; i++) {
         struct query q;
         const accel_box small = random_box(&d), large = larger_box(&d, &small);
@@ -179,7 +179,7 @@ static uint64_t try_mode(const struct mode *m, uint64_t count)
             what = "a larger box has a smaller interval";
         if (!box_contains(&padded, &small))
             what = "a padded box is smaller than its box";
-        set_limit(&q, &d, dice_chance(&d, 0.5) ? &small : &large);
+        set_limit(&q, &d, rng_chance(&d, 0.5) ? &small : &large);
         if (!pair_meets(&q, &small, &large))
             what = "a box that may hold a hit is not visited";
         mode_leave();

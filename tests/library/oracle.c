@@ -28,7 +28,7 @@ static double try_family(const char *family, const char *name, uint64_t count, b
     struct test_scene s;
     scene_make(&s, scene_maker_find(name), test_seed());
     struct forms all = build_forms(&s);
-    struct dice d = dice_from(test_seed(), 21);
+    struct rng d = rng_from(test_seed(), 21);
     uint64_t undecided = 0, hits = 0, wrong = 0;
     for (uint64_t i = 0; i < count; i++) {
         const accel_ray ray = rays->make(&s, all.a[0], &d, generic ? 0 : i);
@@ -95,7 +95,7 @@ static void test_misses(void **state)
         struct test_scene s;
         scene_make(&s, scene_maker_find(scenes[i]), test_seed());
         accel *linear = must_build(&s, "linear");
-        struct dice d = dice_from(test_seed(), 22);
+        struct rng d = rng_from(test_seed(), 22);
         uint64_t quick = 0, pairs = 0;
         const struct part *p = s.part;
         for (uint64_t r = 0; r < scaled_count(120) && p->type == ACCEL_TRIANGLES; r++) {

@@ -86,7 +86,7 @@ static void watch_build(const struct test_scene *s, const char *name, const char
 static const char *const more[] = {
     "hug:connectivity=0", "hug:form=paper",     "hug:form=paper,connectivity=0",
     "hug:density=30",     "hoo:connectivity=0", "octree:leaf=1",
-    "octree:depth=8",     "bvh:isa=portable",  "bsp:leaf=1",
+    "octree:depth=8",     "bvh:isa=portable",   "bsp:leaf=1",
     "grid:density=9",
 };
 
@@ -110,12 +110,12 @@ static void watch_scene(const struct test_scene *s, const char *name)
  * with crowded cells. */
 static void make_crowd(struct test_scene *s, uint32_t balls)
 {
-    struct dice d = dice_from(test_seed(), 1);
+    struct rng d = rng_from(test_seed(), 1);
     scene_open(s);
     struct part *p = scene_part(s, ACCEL_TRIANGLES);
     for (uint32_t i = 0; i < balls; i++) {
-        const double centre[3] = {dice_unit(&d), dice_unit(&d), dice_unit(&d)};
-        ball_mesh(p, centre, exp2(-2 - 10 * dice_unit(&d)), 3);
+        const double centre[3] = {rng_unit(&d), rng_unit(&d), rng_unit(&d)};
+        ball_mesh(p, centre, exp2(-2 - 10 * rng_unit(&d)), 3);
     }
     scene_close(s);
 }

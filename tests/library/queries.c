@@ -79,7 +79,7 @@ static void refused(const accel *a, const accel_ray *ray)
 
 static void try_special(const accel *a, const struct test_scene *s)
 {
-    struct dice d = dice_from(1, 1);
+    struct rng d = rng_from(1, 1);
     uint64_t bad = 0;
     const uint64_t count = 5000;
     for (uint64_t i = 0; i < count; i++) {
@@ -104,7 +104,7 @@ static void test_special(void **state)
 
 static uint64_t work(const accel *a, const struct test_scene *s, const struct ray_family *family)
 {
-    struct dice d = dice_from(1, 1);
+    struct rng d = rng_from(1, 1);
     accel_query q = {.user = NULL};
     accel_hit hit;
     for (uint64_t i = 0; i < 9826; i++) {
@@ -135,7 +135,7 @@ static void test_work(void **state)
 static void try_ends(const accel *a, const struct test_scene *s)
 {
     const double inf = (double)INFINITY;
-    struct dice d = dice_from(2, 2);
+    struct rng d = rng_from(2, 2);
     uint32_t hits = 0;
     for (uint64_t i = 0; i < 500; i++) {
         accel_ray ray = ray_families->make(s, a, &d, i);
@@ -218,7 +218,7 @@ static bool in_order(const accel_hit *a, const accel_hit *b)
 
 static void try_skip(const accel *a, const struct test_scene *s)
 {
-    struct dice d = dice_from(3, 3);
+    struct rng d = rng_from(3, 3);
     for (uint64_t i = 0; i < 200; i++) {
         accel_ray ray = ray_families->make(s, a, &d, i);
         struct hits with = {.most = ALL_HITS}, without = {.most = ALL_HITS};
@@ -247,7 +247,7 @@ static void try_skip_none(const accel *a, const struct test_scene *s)
 {
     static const accel_id odd[] = {
         {ACCEL_NONE, 0}, {0, ACCEL_NONE}, {ACCEL_NONE, ACCEL_NONE}, {7, 0}, {0, 1000000}};
-    struct dice d = dice_from(4, 4);
+    struct rng d = rng_from(4, 4);
     for (uint64_t i = 0; i < 60; i++) {
         accel_ray ray = ray_families->make(s, a, &d, i);
         const struct answer plain = ask(a, &ray, true);
@@ -267,7 +267,7 @@ static void test_skip_none(void **state)
 
 static void try_stop(const accel *a, const struct test_scene *s)
 {
-    struct dice d = dice_from(5, 5);
+    struct rng d = rng_from(5, 5);
     uint32_t longest = 0;
     for (uint64_t i = 0; i < 12; i++) {
         const accel_ray ray = ray_families->make(s, a, &d, i);
@@ -317,15 +317,15 @@ static bool holds(const accel_box *b, const double p[3])
 /* Boxes are closed: their own corners count. */
 static void try_points(const accel *a, const struct test_scene *s)
 {
-    struct dice d = dice_from(6, 6);
+    struct rng d = rng_from(6, 6);
     for (int i = 0; i < 200; i++) {
-        const accel_id at = {0, dice_below(&d, s->part[0].count)};
+        const accel_id at = {0, rng_below(&d, s->part[0].count)};
         accel_box box;
         double p[3];
         if (!accel_padded_box(a, at, &box))
             continue;
         for (int k = 0; k < 3; k++)
-            p[k] = dice_chance(&d, 0.5) ? box.lo[k] : box.hi[k];
+            p[k] = rng_chance(&d, 0.5) ? box.lo[k] : box.hi[k];
         struct ids found = {.count = 0};
         uint32_t next = 0;
         accel_point(a, p, store_id, &found, NULL);
@@ -566,7 +566,7 @@ static void test_nested(void **state)
 /* The library only adds to the counters. */
 static void try_counters(const accel *a, const struct test_scene *s)
 {
-    struct dice d = dice_from(8, 8);
+    struct rng d = rng_from(8, 8);
     const accel_ray ray = ray_families->make(s, a, &d, 1);
     accel_query once = {.user = NULL}, twice = {.nodes = 5, .tests = 6, .refused = 7};
     accel_hit hit;

@@ -148,7 +148,7 @@ static void test_within_box(void **state)
     struct test_scene s;
     scene_make(&s, scene_maker_find("slivers"), test_seed());
     accel *a = must_build(&s, "linear");
-    struct dice d = dice_from(test_seed(), 81);
+    struct rng d = rng_from(test_seed(), 81);
     uint64_t hits = 0;
     for (uint64_t i = 0; i < scaled_count(20000); i++) {
         const accel_ray ray = ray_families->make(&s, a, &d, i % 2 ? 5 : 2);

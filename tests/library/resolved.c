@@ -63,24 +63,24 @@ static uint64_t bits_of(double x)
     return bits;
 }
 
-static double any_double(struct dice *d)
+static double any_double(struct rng *d)
 {
     double x;
     do {
-        const uint64_t bits = dice_bits(d);
+        const uint64_t bits = rng_bits(d);
         memcpy(&x, &bits, sizeof x);
     } while (!isfinite(x));
-    return dice_chance(d, 0.3) ? floor(dice_unit(d) * 1e6) / 1e3 : x;
+    return rng_chance(d, 0.3) ? floor(rng_unit(d) * 1e6) / 1e3 : x;
 }
 
 /* accel_number_text prints as %g does in the C locale; accel_number_parse is the inverse. */
 static void test_numbers(void **state)
 {
     (void)state;
-    struct dice d = dice_from(test_seed(), 1);
+    struct rng d = rng_from(test_seed(), 1);
     for (uint64_t i = 0; i < scaled_count(200000); i++) {
         const double x = any_double(&d);
-        const int digits = 1 + (int)dice_below(&d, 17);
+        const int digits = 1 + (int)rng_below(&d, 17);
         char expected[40];
         double back = 0;
         snprintf(expected, sizeof expected, "%.*g", digits, x);
@@ -96,37 +96,36 @@ static void test_numbers(void **state)
 }
 
 /* Writes a number in an unusual way: zeros before and after, the point moved, some digits. */
-static void spell(struct dice *d, char *to, size_t size)
+static void spell(struct rng *d, char *to, size_t size)
 {
-    const int before = (int)dice_below(d, 30), behind = (int)dice_below(d, 900);
-    int used = snprintf(to, size, "%s", dice_chance(d, 0.2) ? "-" : "");
-    const bool zeros = dice_chance(d, 0.3);
+    const int before = (int)rng_below(d, 30), behind = (int)rng_below(d, 900);
+    int used = snprintf(to, size, "%s", rng_chance(d, 0.2) ? "-" : "");
+    const bool zeros = rng_chance(d, 0.3);
     for (int i = 0; i < before; i++)
-        to[used++] = (char)('0' + (zeros ? 0 : dice_below(d, 10)));
+        to[used++] = (char)('0' + (zeros ? 0 : rng_below(d, 10)));
     to[used++] = '.';
     for (int i = 0; i < behind; i++)
-        to[used++] = (char)('0' + (zeros && i < behind / 2 ? 0 : dice_below(d, 10)));
+        to[used++] = (char)('0' + (zeros && i < behind / 2 ? 0 : rng_below(d, 10)));
     to[used++] = '0';
-    snprintf(to + used, size - (size_t)used, "e%d", (int)dice_below(d, 700) - 350);
+    snprintf(to + used, size - (size_t)used, "e%d", (int)rng_below(d, 700) - 350);
 }
 
 /* Half-way between two doubles, to the last digit, and then a little more. */
-static void spell_middle(struct dice *d, char *to, size_t size)
+static void spell_middle(struct rng *d, char *to, size_t size)
 {
-    const int exponent = (int)dice_below(d, 60) - 30;
-    const uint64_t odd =
-        dice_bits(d) >> 10 | 1; /* 54 bits: the middle, unless leading bits are 0 */
+    const int exponent = (int)rng_below(d, 60) - 30;
+    const uint64_t odd = rng_bits(d) >> 10 | 1; /* 54 bits: the middle, unless leading bits are 0 */
     const double low = ldexp((double)(odd >> 1), exponent + 1), half = ldexp(1.0, exponent);
     char text[200];
     snprintf(text, sizeof text, "%.120Lf", (long double)low + (long double)half);
-    snprintf(to, size, "%s%s", text, dice_chance(d, 0.5) ? "" : "000000000000000000000000000001");
+    snprintf(to, size, "%s%s", text, rng_chance(d, 0.5) ? "" : "000000000000000000000000000001");
 }
 
 /* As strtod reads in the C locale. */
 static void test_spellings(void **state)
 {
     (void)state;
-    struct dice d = dice_from(test_seed(), 2);
+    struct rng d = rng_from(test_seed(), 2);
     char text[1200];
     for (uint64_t i = 0; i < scaled_count(100000); i++) {
         double found = 0;
@@ -146,38 +145,38 @@ static void test_spellings(void **state)
 /* -------------------------------------------------------- configs of nothing ---- */
 
 /* A legal number of many digits. */
-static double any_legal(struct dice *d, const accel_option *o)
+static double any_legal(struct rng *d, const accel_option *o)
 {
     const double lo = o->min > 0 ? o->min : 1e-9;
     double x;
     do {
-        const double part = dice_unit(d);
-        x = dice_chance(d, 0.1)   ? o->max
-            : dice_chance(d, 0.1) ? o->min
-                                  : exp2(log2(lo) * (1 - part) + log2(o->max) * part);
+        const double part = rng_unit(d);
+        x = rng_chance(d, 0.1)   ? o->max
+            : rng_chance(d, 0.1) ? o->min
+                                 : exp2(log2(lo) * (1 - part) + log2(o->max) * part);
         x = o->whole ? floor(x) : x;
     } while (!(x >= o->min && x <= o->max));
     return x;
 }
 
 /* A config of a kind: some of its options, in another order; value[]: what each must become. */
-static void any_config(struct dice *d, const accel_kind_info *kind, char *text, size_t size,
+static void any_config(struct rng *d, const accel_kind_info *kind, char *text, size_t size,
                        double *value)
 {
     int used = snprintf(text, size, "%s", kind->name);
     const size_t n = kind->option_count;
-    const uint32_t turn = n > 0 ? dice_below(d, (uint32_t)n) : 0;
+    const uint32_t turn = n > 0 ? rng_below(d, (uint32_t)n) : 0;
     bool any = false;
     for (size_t i = 0; i < n; i++) {
         const size_t at = (i + turn) % n;
         const accel_option *o = &kind->options[at];
         uint32_t words = 0;
         value[at] = o->standard;
-        if (dice_chance(d, 0.3))
+        if (rng_chance(d, 0.3))
             continue;
         while (o->words && o->words[words])
             words++;
-        value[at] = o->words ? dice_below(d, words) : any_legal(d, o);
+        value[at] = o->words ? rng_below(d, words) : any_legal(d, o);
         used += snprintf(text + used, size - (size_t)used, "%c%s=", any ? ',' : ':', o->key);
         used += o->words
                     ? snprintf(text + used, size - (size_t)used, "%s", o->words[(int)value[at]])
@@ -213,11 +212,11 @@ static void test_configs(void **state)
 {
     (void)state;
     const accel_scene nothing = {NULL, 0};
-    struct dice d = dice_from(test_seed(), 3);
+    struct rng d = rng_from(test_seed(), 3);
     size_t accel_kind_list;
     const accel_kind_info *const *kind = accel_kinds(&accel_kind_list);
     for (uint64_t i = 0; i < scaled_count(40000); i++) {
-        const accel_kind_info *k = kind[dice_below(&d, (uint32_t)accel_kind_list)];
+        const accel_kind_info *k = kind[rng_below(&d, (uint32_t)accel_kind_list)];
         char text[600];
         double value[40];
         any_config(&d, k, text, sizeof text, value);
@@ -238,7 +237,7 @@ static void test_configs(void **state)
 
 static uint64_t hash_answers(const accel *a, const struct test_scene *s)
 {
-    struct dice d = dice_from(9, 9);
+    struct rng d = rng_from(9, 9);
     uint64_t hash = HASH_START;
     for (uint64_t i = 0; i < 40; i++) {
         const accel_ray ray = ray_families->make(s, a, &d, i);
@@ -317,9 +316,9 @@ static void test_small_scenes(void **state)
     const accel_kind_info *const *kind = accel_kinds(&accel_kind_list);
     for (uint64_t i = 0; i < scaled_count(400); i++) {
         struct test_scene s;
-        struct dice d = dice_from(test_seed(), i);
+        struct rng d = rng_from(test_seed(), i);
         scene_open(&s);
-        make_soup(&s, &d, 1 + dice_below(&d, 60));
+        make_soup(&s, &d, 1 + rng_below(&d, 60));
         scene_close(&s);
         for (size_t k = 0; k < accel_kind_list; k++)
             build_again(&s, "soup", kind[k]->name, i + k);

@@ -56,19 +56,19 @@ static accel *build_in(const struct mode *m, const struct test_scene *s, const c
 }
 
 /* From as far as there are doubles, along directions whose inverses are flushed to zero. */
-static accel_ray huge_ray(const struct test_scene *s, struct dice *d)
+static accel_ray huge_ray(const struct test_scene *s, struct rng *d)
 {
     double org[3], dir[3];
-    const uint32_t axis = dice_below(d, 3);
-    const double side = dice_chance(d, 0.5) ? 1 : -1;
+    const uint32_t axis = rng_below(d, 3);
+    const double side = rng_chance(d, 0.5) ? 1 : -1;
     for (uint32_t k = 0; k < 3; k++) {
-        org[k] = s->box.lo[k] + dice_unit(d) * (s->box.hi[k] - s->box.lo[k]);
-        dir[k] = dice_chance(d, 0.5) ? 0.0 : dice_power(d, -3, 3);
+        org[k] = s->box.lo[k] + rng_unit(d) * (s->box.hi[k] - s->box.lo[k]);
+        dir[k] = rng_chance(d, 0.5) ? 0.0 : rng_power(d, -3, 3);
     }
-    org[axis] = side * (dice_chance(d, 0.7) ? DBL_MAX : dice_power(d, 1020, 1024));
-    dir[axis] = -side * dice_power(d, 1022, 1024);
+    org[axis] = side * (rng_chance(d, 0.7) ? DBL_MAX : rng_power(d, 1020, 1024));
+    dir[axis] = -side * rng_power(d, 1022, 1024);
     accel_ray ray = accel_ray_from(org, dir);
-    ray.tmin = dice_chance(d, 0.5) ? -(double)INFINITY : -1.0;
+    ray.tmin = rng_chance(d, 0.5) ? -(double)INFINITY : -1.0;
     return ray;
 }
 
@@ -80,7 +80,7 @@ static void agree_in(const struct test_scene *s, const char *name, const struct 
     struct rays r = {(uint32_t)scaled_count(120), NULL, NULL};
     r.ray = must_resize(NULL, r.count * sizeof *r.ray);
     r.answer = must_resize(NULL, r.count * sizeof *r.answer);
-    struct dice d = dice_from(test_seed(), 11);
+    struct rng d = rng_from(test_seed(), 11);
     accel *judge = build_in(built, s, "linear");
     for (uint32_t i = 0; i < r.count; i++)
         r.ray[i] = i % 8 == 6 ? huge_ray(s, &d) : ray_families[i % 4 == 3].make(s, judge, &d, i);

@@ -330,7 +330,7 @@ static uint64_t hash_layout(bool is_float, size_t stride, struct test_scene *s)
     memset(bytes, 0xff, 3 * (size_t)count * step);
     free(bytes);
     uint64_t hash = HASH_START, hits = 0;
-    struct dice d = dice_from(3, 3);
+    struct rng d = rng_from(3, 3);
     for (uint64_t i = 0; i < 1000; i++) {
         const accel_ray ray = ray_families->make(s, a, &d, i);
         const struct answer answer = ask(a, &ray, true);
@@ -346,7 +346,7 @@ static void test_layouts(void **state)
 {
     (void)state;
     struct test_scene s;
-    struct dice d = dice_from(1, 1);
+    struct rng d = rng_from(1, 1);
     scene_open(&s);
     make_soup(&s, &d, SHAPES);
     for (size_t i = 0; i < 9 * SHAPES; i++)

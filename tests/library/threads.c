@@ -22,7 +22,7 @@ struct worker {
 
 static uint64_t hash_answers(const accel *a, const struct test_scene *s)
 {
-    struct dice d = dice_from(9, 9);
+    struct rng d = rng_from(9, 9);
     uint64_t hash = HASH_START;
     for (uint64_t i = 0; i < scaled_count(150); i++) {
         const accel_ray ray = ray_families->make(s, a, &d, i);
@@ -226,7 +226,7 @@ static void test_grow_together(void **state)
         accel_ray *rays = must_resize(NULL, crowd_rays() * sizeof *rays);
         scene_make(&s, scene_maker_find(scenes[i]), test_seed());
         accel *judge = must_build(&s, "linear");
-        struct dice d = dice_from(test_seed(), 3);
+        struct rng d = rng_from(test_seed(), 3);
         uint64_t expected = 0;
         for (uint64_t r = 0; r < crowd_rays(); r++) {
             rays[r] = ray_families->make(&s, judge, &d, r);

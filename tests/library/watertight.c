@@ -20,7 +20,7 @@ struct share {
 static uint64_t shoot(const accel *a, const char *config, const struct leak_mesh *m,
                       const struct test_scene *s, uint64_t seed, struct share share)
 {
-    struct dice d = dice_from(seed, 41);
+    struct rng d = rng_from(seed, 41);
     uint64_t shot = 0;
     for (uint64_t i = 0; i < share.count; i++) {
         accel_ray ray;

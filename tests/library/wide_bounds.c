@@ -32,27 +32,27 @@ struct boxes {
 };
 
 /* Coordinates as far out as there are, where rounding is worst, or anywhere. */
-static double far_out(struct dice *d, double size)
+static double far_out(struct rng *d, double size)
 {
-    const double sign = dice_chance(d, 0.5) ? 1 : -1;
-    if (dice_chance(d, 0.5))
-        return sign * size * (1.0 - dice_unit(d) * dice_power(d, -24, -2));
-    return sign * size * dice_unit(d) * dice_power(d, -20, 0);
+    const double sign = rng_chance(d, 0.5) ? 1 : -1;
+    if (rng_chance(d, 0.5))
+        return sign * size * (1.0 - rng_unit(d) * rng_power(d, -24, -2));
+    return sign * size * rng_unit(d) * rng_power(d, -20, 0);
 }
 
-static void make_boxes(struct boxes *b, struct dice *d)
+static void make_boxes(struct boxes *b, struct rng *d)
 {
     struct wide_binary nodes[WIDE];
     const struct wide_binary_tree tree = {.nodes = nodes};
     struct emitter e = {.tree = &tree};
     struct children c = {.count = WIDE};
-    const double size = dice_chance(d, 0.5) ? 1.0 : dice_power(d, -200, 200);
+    const double size = rng_chance(d, 0.5) ? 1.0 : rng_power(d, -200, 200);
     memset(b, 0, sizeof *b);
     b->w.scale = ldexp(1.0, -ilogb(size) - 1);
     for (uint32_t i = 0; i < WIDE; i++) {
         accel_box box;
         for (int k = 0; k < 3; k++) {
-            const double at = far_out(d, size), side = size * dice_power(d, -50, -1);
+            const double at = far_out(d, size), side = size * rng_power(d, -50, -1);
             box.lo[k] = fmax(at - side, -size);
             box.hi[k] = fmin(at + side, size);
         }
@@ -66,29 +66,29 @@ static void make_boxes(struct boxes *b, struct dice *d)
 }
 
 /* A point of a box: on a corner, an edge or a face, or near it. */
-static void pick_target(const accel_box *box, struct dice *d, double out[3])
+static void pick_target(const accel_box *box, struct rng *d, double out[3])
 {
     for (int k = 0; k < 3; k++) {
-        const double at = dice_chance(d, 0.8) ? (dice_chance(d, 0.5) ? box->lo[k] : box->hi[k])
-                                              : dice_range(d, box->lo[k], box->hi[k]);
-        out[k] = dice_chance(d, 0.5) ? at : nextafter(at, dice_chance(d, 0.5) ? 1e300 : -1e300);
+        const double at = rng_chance(d, 0.8) ? (rng_chance(d, 0.5) ? box->lo[k] : box->hi[k])
+                                             : rng_range(d, box->lo[k], box->hi[k]);
+        out[k] = rng_chance(d, 0.5) ? at : nextafter(at, rng_chance(d, 0.5) ? 1e300 : -1e300);
     }
 }
 
-static accel_ray make_ray(const struct boxes *b, uint32_t target, struct dice *d)
+static accel_ray make_ray(const struct boxes *b, uint32_t target, struct rng *d)
 {
     double to[3], org[3], dir[3];
     pick_target(&b->padded[target], d, to);
     const double size = 1.0 / b->w.scale;
-    const double away = dice_chance(d, 0.3) ? dice_power(d, 0, 30) : 1.0;
-    const double length = dice_chance(d, 0.5) ? 1.0 : dice_power(d, -300, 300);
+    const double away = rng_chance(d, 0.3) ? rng_power(d, 0, 30) : 1.0;
+    const double length = rng_chance(d, 0.5) ? 1.0 : rng_power(d, -300, 300);
     for (int k = 0; k < 3; k++) {
         org[k] = far_out(d, size) * away;
-        if (dice_chance(d, 0.2))
+        if (rng_chance(d, 0.2))
             org[k] = to[k];
         dir[k] = to[k] - org[k];
-        if (dice_chance(d, 0.1))
-            dir[k] *= dice_power(d, -80, -40);
+        if (rng_chance(d, 0.1))
+            dir[k] *= rng_power(d, -80, -40);
     }
     for (int k = 0; k < 3; k++)
         dir[k] = dir[k] / size * length;
@@ -97,12 +97,12 @@ static accel_ray make_ray(const struct boxes *b, uint32_t target, struct dice *d
 }
 
 /* An interval that ends or begins where S does, if that is legal. */
-static void narrow(accel_ray *ray, struct interval s, struct dice *d)
+static void narrow(accel_ray *ray, struct interval s, struct rng *d)
 {
-    if (dice_chance(d, 0.3) && s.z >= 0)
-        ray->tmin = dice_chance(d, 0.5) ? s.z : nextafter(s.z, 0);
-    if (dice_chance(d, 0.3) && s.a > 0)
-        ray->tmax = dice_chance(d, 0.5) ? s.a : nextafter(s.a, (double)INFINITY);
+    if (rng_chance(d, 0.3) && s.z >= 0)
+        ray->tmin = rng_chance(d, 0.5) ? s.z : nextafter(s.z, 0);
+    if (rng_chance(d, 0.3) && s.a > 0)
+        ray->tmax = rng_chance(d, 0.5) ? s.a : nextafter(s.a, (double)INFINITY);
 }
 
 static struct query query_of(const accel_ray *ray)
@@ -140,7 +140,7 @@ static void test_nodes(void **state)
 {
     (void)state;
     enum { RAYS = 200 };
-    struct dice d = dice_from(test_seed(), 17);
+    struct rng d = rng_from(test_seed(), 17);
     uint64_t met = 0, lost = 0;
     if (!WIDE_ISA.works_here())
         skip();
@@ -148,7 +148,7 @@ static void test_nodes(void **state)
         _Alignas(64) struct boxes b;
         make_boxes(&b, &d);
         for (uint32_t i = 0; i < RAYS; i++) {
-            const uint32_t target = dice_below(&d, WIDE);
+            const uint32_t target = rng_below(&d, WIDE);
             accel_ray ray = make_ray(&b, target, &d);
             struct query q = query_of(&ray);
             const struct interval s = query_box(&q, &b.padded[target]);

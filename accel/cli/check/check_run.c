@@ -7,7 +7,7 @@
  */
 #include "check.h"
 
-#include "tool/crew.h"
+#include "tool/threads.h"
 
 #include <stdatomic.h>
 #include <stdlib.h>
@@ -156,7 +156,7 @@ bool check_run(struct check *check)
     for (size_t i = 0; i < count; i++) {
         r.tallies[i].first = UINT64_MAX;
     }
-    crew(check->threads, work, &r);
+    threads_run(check->threads, work, &r);
     progress_clear(&check->progress);
     for (size_t i = 0; i < count; i++) {
         add_tally(&check->suspects[i % check->suspect_count], &r.tallies[i]);

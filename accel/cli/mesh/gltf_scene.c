@@ -84,13 +84,13 @@ static bool own_matrix(gltf *g, const gltf_object *node, gltf_matrix *own)
 static bool place(gltf *g, size_t node, size_t mesh)
 {
     if (g->placed_count == g->placed_room) {
-        const size_t room = 2 * g->placed_room + 16;
-        gltf_placed *placed = realloc(g->placed, room * sizeof *placed);
+        const size_t capacity = 2 * g->placed_room + 16;
+        gltf_placed *placed = realloc(g->placed, capacity * sizeof *placed);
         if (placed == NULL) {
             return mesh_refuse_memory(g->r);
         }
         g->placed = placed;
-        g->placed_room = room;
+        g->placed_room = capacity;
     }
     g->placed[g->placed_count++] = (gltf_placed){node, mesh};
     return true;

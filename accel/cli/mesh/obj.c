@@ -228,13 +228,13 @@ static bool part(obj *o)
         return true;
     }
     if (o->part_count == o->part_room) {
-        const size_t room = 2 * o->part_room + 16;
-        size_t *parts = realloc(o->parts, room * sizeof *parts);
+        const size_t capacity = 2 * o->part_room + 16;
+        size_t *parts = realloc(o->parts, capacity * sizeof *parts);
         if (parts == NULL) {
             return mesh_refuse_memory(o->r);
         }
         o->parts = parts;
-        o->part_room = room;
+        o->part_room = capacity;
     }
     o->parts[o->part_count++] = triangle;
     return true;

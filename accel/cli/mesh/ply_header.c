@@ -98,13 +98,13 @@ static bool take_element(mesh_reader *r, ply *p)
         return mesh_refuse_line(r, made.line, "a second element of the same name, allowed is one");
     }
     if (p->element_count == p->element_room) {
-        const size_t room = 2 * p->element_room + 8;
-        ply_element *elements = realloc(p->elements, room * sizeof *elements);
+        const size_t capacity = 2 * p->element_room + 8;
+        ply_element *elements = realloc(p->elements, capacity * sizeof *elements);
         if (elements == NULL) {
             return mesh_refuse_memory(r);
         }
         p->elements = elements;
-        p->element_room = room;
+        p->element_room = capacity;
     }
     p->elements[p->element_count++] = made;
     return true;
@@ -139,13 +139,13 @@ static bool is_used(const ply *p, const ply_element *e, int use)
 static bool add_property(mesh_reader *r, ply *p, ply_property made)
 {
     if (p->property_count == p->property_room) {
-        const size_t room = 2 * p->property_room + 16;
-        ply_property *properties = realloc(p->properties, room * sizeof *properties);
+        const size_t capacity = 2 * p->property_room + 16;
+        ply_property *properties = realloc(p->properties, capacity * sizeof *properties);
         if (properties == NULL) {
             return mesh_refuse_memory(r);
         }
         p->properties = properties;
-        p->property_room = room;
+        p->property_room = capacity;
     }
     p->properties[p->property_count++] = made;
     return true;

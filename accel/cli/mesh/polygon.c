@@ -19,14 +19,14 @@ typedef enum rule {
 
 static bool make_room(mesh_cutter *c, size_t count)
 {
-    if (count <= c->room) {
+    if (count <= c->capacity) {
         return true;
     }
     mesh_cutter_free(c);
     c->at = malloc(count * sizeof *c->at);
     c->next = malloc(count * sizeof *c->next);
     c->previous = malloc(count * sizeof *c->previous);
-    c->room = count;
+    c->capacity = count;
     if (c->at == NULL || c->next == NULL || c->previous == NULL) {
         mesh_cutter_free(c);
         return false;
@@ -41,7 +41,7 @@ void mesh_cutter_free(mesh_cutter *c)
     free(c->previous);
     c->at = NULL;
     c->next = c->previous = NULL;
-    c->room = 0;
+    c->capacity = 0;
 }
 
 /* The power of two that brings all coordinates below 1; false where one is not finite. */

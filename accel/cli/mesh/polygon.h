@@ -20,7 +20,7 @@ typedef struct mesh_cutter {
     double (*at)[2];     /* of each corner, as it is looked at */
     uint32_t *next;      /* corners that are left, in a ring */
     uint32_t *previous;  /* the same, backwards */
-    size_t room;         /* of each of these */
+    size_t capacity;     /* of each of these */
     uint64_t work;       /* corners that have been compared with ears, of all polygons */
     uint64_t most_work;  /* where to stop; 0: nowhere */
     uint64_t not_simple; /* polygons of which some ear was none */

@@ -69,12 +69,13 @@ bool mesh_expect(mesh_reader *r, const char *wanted)
 void mesh_note(mesh_reader *r, const char *format, ...)
 {
     char *note = r->out->note;
-    const size_t length = strlen(note), room = sizeof r->out->note;
-    const int more = snprintf(note + length, room - length, "%s", length == 0 ? "" : "; ");
+    const size_t length = strlen(note), capacity = sizeof r->out->note;
+    const int more = snprintf(note + length, capacity - length, "%s", length == 0 ? "" : "; ");
     va_list arguments;
     va_start(arguments, format);
-    if (length + (size_t)more < room) {
-        vsnprintf(note + length + (size_t)more, room - length - (size_t)more, format, arguments);
+    if (length + (size_t)more < capacity) {
+        vsnprintf(note + length + (size_t)more, capacity - length - (size_t)more, format,
+                  arguments);
     }
     va_end(arguments);
 }
@@ -94,15 +95,16 @@ void mesh_note_rest(mesh_reader *r, const char *at)
 
 bool mesh_indices_add(mesh_indices *indices, uint32_t item)
 {
-    if (indices->count == indices->room) {
-        const size_t room = 2 * indices->room + 16;
-        uint32_t *items =
-            indices->count >= UINT32_MAX - 1 ? NULL : realloc(indices->items, room * sizeof *items);
+    if (indices->count == indices->capacity) {
+        const size_t capacity = 2 * indices->capacity + 16;
+        uint32_t *items = indices->count >= UINT32_MAX - 1
+                              ? NULL
+                              : realloc(indices->items, capacity * sizeof *items);
         if (items == NULL) {
             return false;
         }
         indices->items = items;
-        indices->room = room;
+        indices->capacity = capacity;
     }
     indices->items[indices->count++] = item;
     return true;
@@ -112,13 +114,13 @@ bool mesh_indices_add(mesh_indices *indices, uint32_t item)
 static bool remember_late(mesh_reader *r, size_t triangle)
 {
     if (r->late_count == r->late_room) {
-        const size_t room = 2 * r->late_room + 16;
-        mesh_late *late = realloc(r->late, room * sizeof *late);
+        const size_t capacity = 2 * r->late_room + 16;
+        mesh_late *late = realloc(r->late, capacity * sizeof *late);
         if (late == NULL) {
             return mesh_refuse_memory(r);
         }
         r->late = late;
-        r->late_room = room;
+        r->late_room = capacity;
     }
     r->late[r->late_count++] =
         (mesh_late){triangle, r->late_corners.count, (uint32_t)r->face.count};

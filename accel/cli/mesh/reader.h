@@ -21,7 +21,7 @@ typedef struct mesh_late {
 /* A growing array of indices. */
 typedef struct mesh_indices {
     uint32_t *items;
-    size_t count, room;
+    size_t count, capacity;
 } mesh_indices;
 
 /* A mesh file under way. */

@@ -5,7 +5,7 @@
  */
 #include "photons.h"
 
-#include "tool/crew.h"
+#include "tool/threads.h"
 #include "photons_vector.h"
 
 #include <stdatomic.h>
@@ -29,7 +29,7 @@ typedef struct neighbour {
 /* The nearest photons so far, as a heap with the farthest on top. */
 typedef struct nearest {
     neighbour *heap; /* room of them */
-    uint32_t count, room;
+    uint32_t count, capacity;
 } nearest;
 
 /* The estimate under way. */
@@ -111,7 +111,7 @@ static void sink(nearest *n, neighbour item)
 
 static void keep(nearest *n, neighbour item)
 {
-    if (n->count == n->room) {
+    if (n->count == n->capacity) {
         if (farther(&n->heap[0], &item)) {
             sink(n, item);
         }
@@ -175,7 +175,7 @@ static void work(void *user, unsigned thread)
 {
     (void)thread;
     estimate *e = user;
-    nearest n = {.heap = malloc(e->nearest * sizeof(neighbour)), .room = e->nearest};
+    nearest n = {.heap = malloc(e->nearest * sizeof(neighbour)), .capacity = e->nearest};
     if (n.heap == NULL) {
         atomic_store(&e->failed, true);
         return;
@@ -200,7 +200,7 @@ bool irradiance_nearest(const struct photons *photons, const struct photon_run *
                   .irradiance = irradiance};
     bool fine = fill_lattice(&e.lattice);
     if (fine) {
-        crew(run->threads, work, &e);
+        threads_run(run->threads, work, &e);
         fine = !atomic_load(&e.failed);
     }
     free(e.lattice.first);

@@ -4,7 +4,7 @@
  */
 #include "photons.h"
 
-#include "tool/crew.h"
+#include "tool/threads.h"
 #include "photons_surface.h"
 #include "photons_vector.h"
 
@@ -148,7 +148,7 @@ bool irradiance_paths(const struct photons *photons, const struct photon_run *ru
     free(boxes);
     if (discs != NULL) {
         e.discs = discs;
-        crew(run->threads, work, &e);
+        threads_run(run->threads, work, &e);
         add_up(&e, irradiance);
         query->nodes += atomic_load(&e.nodes);
         query->tests += atomic_load(&e.tests);

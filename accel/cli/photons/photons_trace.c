@@ -5,7 +5,7 @@
  */
 #include "photons.h"
 
-#include "tool/crew.h"
+#include "tool/threads.h"
 #include "photons_surface.h"
 #include "photons_vector.h"
 #include "tool/progress.h"
@@ -31,7 +31,7 @@ typedef struct block {
 /* One thread's part. */
 typedef struct worker {
     struct photon *hits; /* of all its blocks */
-    size_t count, room;
+    size_t count, capacity;
     uint64_t absorbed, escaped, rays;
     accel_query query;
     bool failed; /* no memory */
@@ -91,15 +91,15 @@ static void emit(const shoot *s, flight *f)
 
 static bool store(worker *w, const struct photon *photon)
 {
-    if (w->count == w->room) {
-        const size_t room = w->room == 0 ? 4 * BLOCK : 2 * w->room;
-        struct photon *hits = realloc(w->hits, room * sizeof *hits);
+    if (w->count == w->capacity) {
+        const size_t capacity = w->capacity == 0 ? 4 * BLOCK : 2 * w->capacity;
+        struct photon *hits = realloc(w->hits, capacity * sizeof *hits);
         if (hits == NULL) {
             w->failed = true;
             return false;
         }
         w->hits = hits;
-        w->room = room;
+        w->capacity = capacity;
     }
     w->hits[w->count++] = *photon;
     return true;
@@ -226,7 +226,7 @@ bool trace_photons(struct photons *out, const accel *a, const accel_scene *scene
                .block_count = block_count};
     bool fine = s.workers != NULL && s.blocks != NULL;
     if (fine) {
-        crew(run->threads, work, &s);
+        threads_run(run->threads, work, &s);
         fine = join(&s, out);
         out->seconds = seconds_now() - start;
         out->processor = processor_seconds() - processor;

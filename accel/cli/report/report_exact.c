@@ -90,7 +90,7 @@ static void judge_all(examined *x)
 }
 
 /* Rays that aim at nothing in particular: of the mix every sixth. */
-static accel_ray random_ray(const struct test_scene *s, const accel *judge, struct dice *d,
+static accel_ray random_ray(const struct test_scene *s, const accel *judge, struct rng *d,
                             uint64_t i)
 {
     (void)i;

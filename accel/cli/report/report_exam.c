@@ -4,7 +4,7 @@
  */
 #include "report_exam.h"
 
-#include "tool/crew.h"
+#include "tool/threads.h"
 
 #include <stdatomic.h>
 #include <stdlib.h>
@@ -35,7 +35,7 @@ static void make_scene_of(const struct exam_subject *subject, struct test_scene 
 
 /* A ray along an integer line, and the first that it hits; its `under` is 0 where it hits nothing.
  * Scenes are those in which no line hits more than ALL. */
-static accel_ray integer_ray(const struct test_scene *s, struct dice *d, struct first *first)
+static accel_ray integer_ray(const struct test_scene *s, struct rng *d, struct first *first)
 {
     enum { ALL = 300 };
     struct crossing all[ALL];
@@ -70,7 +70,7 @@ static void make_known(struct exam *e, const struct known *c)
 
 static void make_rays(struct exam *e, const struct exam_subject *subject, size_t count)
 {
-    struct dice d = dice_from(seed_of(subject), 2);
+    struct rng d = rng_from(seed_of(subject), 2);
     e->set.count = 0;
     if (subject->known != NULL) {
         make_known(e, subject->known);
@@ -143,7 +143,7 @@ static struct judgement *judge_all(const struct test_scene *scene, const accel_r
     judging j = {.scene = scene, .rays = rays, .count = count};
     j.out = malloc((count + 1) * sizeof *j.out);
     if (j.out != NULL) {
-        crew(crew_size(), judge_some, &j);
+        threads_run(threads_available(), judge_some, &j);
     }
     return j.out;
 }

@@ -54,9 +54,10 @@ static char *former_files(const char *path)
     if (file == NULL) {
         return NULL;
     }
-    size_t room = 0;
-    const bool is = getline(&line, &room, file) > 0 && strncmp(line, mark, sizeof mark - 1) == 0;
-    while (is && found == NULL && getline(&line, &room, file) > 0) {
+    size_t capacity = 0;
+    const bool is =
+        getline(&line, &capacity, file) > 0 && strncmp(line, mark, sizeof mark - 1) == 0;
+    while (is && found == NULL && getline(&line, &capacity, file) > 0) {
         found = strncmp(line, list, sizeof list - 1) == 0 ? strdup(line) : NULL;
     }
     free(line);

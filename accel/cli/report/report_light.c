@@ -8,7 +8,7 @@
  */
 #include "report_light.h"
 
-#include "tool/crew.h"
+#include "tool/threads.h"
 #include "tool/machine.h"
 
 #include <stdlib.h>
@@ -81,7 +81,7 @@ static bool add_seed(study *y, const accel *a, uint64_t seed)
 {
     struct photons photons;
     y->s.run.seed = seed;
-    y->s.run.threads = crew_size();
+    y->s.run.threads = threads_available();
     if (!trace_photons(&photons, a, &y->s.loaded.scene, &y->s.run)) {
         return no_memory(y);
     }
@@ -258,7 +258,7 @@ static bool run_steps(study *y, double seconds)
 
 /* Adds to `note` who was slowest. */
 static bool run_study(struct reporting *r, FILE *csv, bool plates, double seconds, char *note,
-                      size_t room)
+                      size_t capacity)
 {
     study *y = calloc(1, sizeof *y);
     if (y == NULL) {
@@ -271,7 +271,7 @@ static bool run_study(struct reporting *r, FILE *csv, bool plates, double second
                       build_all(y) && run_steps(y, (plates ? 1.0 : 0.85) * seconds);
     if (fine) {
         const size_t used = strlen(note);
-        snprintf(note + used, room - used,
+        snprintf(note + used, capacity - used,
                  " %s, %.0e photons: the slowest, <code>%s</code>, takes %.1f times as long as the "
                  "fastest, <code>%s</code>.",
                  y->s.title, (double)y->s.run.photons, y->at[y->worst].config,

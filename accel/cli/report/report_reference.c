@@ -12,7 +12,7 @@
 #include "report_light.h"
 
 #include "scenes/camera.h"
-#include "tool/crew.h"
+#include "tool/threads.h"
 #include "photons/photons_surface.h"
 #include "photons/photons_vector.h"
 #include "scenes/plates.h"
@@ -230,8 +230,8 @@ static void gather_some(void *user, unsigned thread)
 
 void light_reference(struct light_scene *s, const accel *a, double seconds)
 {
-    const unsigned threads = crew_size();
+    const unsigned threads = threads_available();
     gathering g = {
         .s = s, .a = a, .seconds = seconds * threads / (double)(s->count > 0 ? s->count : 1)};
-    crew(threads, gather_some, &g);
+    threads_run(threads, gather_some, &g);
 }

@@ -245,11 +245,11 @@ static bool draw_gap(struct reporting *r)
 }
 
 /* How a peer compares: nothing where there is none. */
-static void write_peer(char *to, size_t room, const summary *s)
+static void write_peer(char *to, size_t capacity, const summary *s)
 {
     to[0] = '\0';
     if (s->peer.name[0] != '\0') {
-        snprintf(to, room,
+        snprintf(to, capacity,
                  " %s traces %.1f times as fast as the fastest of ours (<code>%s</code>).",
                  s->peer.name, s->fastest.ns / s->peer.ns, s->fastest.name);
     }

@@ -22,7 +22,7 @@ typedef struct placed {
 /* All of them, in order. */
 typedef struct placed_list {
     placed *items;
-    size_t count, room;
+    size_t count, capacity;
     uint64_t bytes; /* of the result so far */
     bool failed;    /* no memory */
 } placed_list;
@@ -45,9 +45,9 @@ static void product(const double a[3][4], const struct aiMatrix4x4 *node, double
 static void place(placed_list *list, const placed *item)
 {
     list->bytes += 24 * (uint64_t)item->mesh->mNumVertices + 12 * (uint64_t)item->mesh->mNumFaces;
-    if (list->count == list->room) {
-        list->room = 2 * list->room + 16;
-        placed *block = realloc(list->items, list->room * sizeof *block);
+    if (list->count == list->capacity) {
+        list->capacity = 2 * list->capacity + 16;
+        placed *block = realloc(list->items, list->capacity * sizeof *block);
         list->failed = list->failed || block == NULL;
         list->items = block == NULL ? list->items : block;
     }

@@ -10,15 +10,15 @@
 #include <string.h>
 
 /* Makes room for `more` elements behind `count`. Returns NULL if it cannot, leaving *room alone. */
-static void *make_room(void *block, size_t count, size_t more, size_t size, size_t *room)
+static void *make_room(void *block, size_t count, size_t more, size_t size, size_t *capacity)
 {
-    if (count + more <= *room) {
+    if (count + more <= *capacity) {
         return block;
     }
     const size_t wanted = (count + more) * 2;
     void *grown = realloc(block, wanted * size);
     if (grown != NULL) {
-        *room = wanted;
+        *capacity = wanted;
         memory_large_pages(grown, wanted * size);
     }
     return grown;

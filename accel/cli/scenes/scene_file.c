@@ -128,12 +128,12 @@ static bool read_beside(void *user, struct file *file, const char *name, accel_e
     const char *path = ((const reading *)user)->path;
     const char *slash = strrchr(path, '/');
     const size_t folder = slash == NULL ? 0 : (size_t)(slash - path) + 1;
-    const size_t room = folder + strlen(name) + 1;
-    char *other = malloc(room);
+    const size_t capacity = folder + strlen(name) + 1;
+    char *other = malloc(capacity);
     if (other == NULL) {
         return file_fail(path, "does not fit into memory", error);
     }
-    snprintf(other, room, "%.*s%s", (int)folder, path, name);
+    snprintf(other, capacity, "%.*s%s", (int)folder, path, name);
     const bool fine = file_read(file, other, error);
     free(other);
     return fine;

@@ -33,7 +33,7 @@ struct import_file {
 /* The child's part; `user` is the struct import_file. */
 child_work file_import;
 
-/* assimp's doors to files: the file in memory, and no other one. */
+/* assimp's streams: the file in memory, and no other one. */
 struct aiFile *file_open(struct aiFileIO *io, const char *path, const char *mode);
 void file_close(struct aiFileIO *io, struct aiFile *file);
 

@@ -4,7 +4,7 @@
  */
 #include "trace.h"
 
-#include "tool/crew.h"
+#include "tool/threads.h"
 #include "scenes/scene.h"
 
 #include <stdatomic.h>
@@ -158,7 +158,7 @@ static void trace_all(struct tracing *tracing, const struct camera *camera, use_
                       void *target)
 {
     run r = {.tracing = tracing, .camera = camera, .use = use, .target = target};
-    crew(tracing->threads, work, &r);
+    threads_run(tracing->threads, work, &r);
     progress_clear(&tracing->progress);
 }
 

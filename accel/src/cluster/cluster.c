@@ -7,10 +7,10 @@
  * - Filter (cluster_sizes.c): a new size class begins where an octave of size is empty. A fixed
  *   number of classes would cut meshes, whose triangles vary without gaps, into interleaved pieces.
  *   `octaves` limits the span. What is smaller than 2^-18 of the scene counts as that large.
- * - Bins (cluster_look.c, cluster_bins.c): a sample tells how fine a grid has to be; what lies
+ * - Bins (cluster_sample.c, cluster_bins.c): a sample tells how fine a grid has to be; what lies
  *   together in one of its cells is a part, split where planes go between. All that follows handles
  *   parts, of which there are but one for some dozens of primitives.
- * - Near (cluster_crumbs.c): parts whose boxes touch are joined. Where primitives are loose, or
+ * - Near (cluster_fragments.c): parts whose boxes touch are joined. Where primitives are loose, or
  * what touches is small, they are joined by distance, as far as the predicted cost falls.
  * - Overlap (cluster_nested.c): parts in each other's boxes are joined where one octree is cheaper.
  * With a given connectivity c (cluster_units.c, cluster_near.c), primitives are connected over gaps
@@ -30,15 +30,16 @@ static bool make_given(struct parts *p, double connectivity)
 
 static bool make_auto(struct parts *p)
 {
-    struct look look;
-    p->crumb = PARTS_CRUMB;
-    if (!accel_parts_look(p, &look) || !accel_parts_bin(p, &look))
+    struct parts_sample sample;
+    p->fragment = PARTS_FRAGMENT;
+    if (!accel_parts_sample(p, &sample) || !accel_parts_bin(p, &sample))
         return false;
-    if (look.loose)
-        p->crumb = ACCEL_NONE;
+    if (sample.loose)
+        p->fragment = ACCEL_NONE;
     else if (p->part.count > 1 && !accel_parts_join_touching(p))
         return false;
-    return accel_parts_join_crumbs(p, look.loose ? &look : NULL) && accel_parts_join_nested(p);
+    return accel_parts_join_fragments(p, sample.loose ? &sample : NULL) &&
+           accel_parts_join_nested(p);
 }
 
 static bool make_parts(struct parts *p, struct cluster_rule rule)
@@ -88,24 +89,24 @@ static bool order_clusters(struct parts *p, struct clustering *c)
 }
 
 /* The cluster of each piece: a unit with a given connectivity, else a part. */
-static bool find_homes(struct parts *p, struct ids *home)
+static bool find_owners(struct parts *p, struct ids *owner)
 {
     const size_t pieces = p->units.count > 0 ? p->units.count : p->part.count;
-    if (!array_extend(&p->build->a->memory, home, pieces))
+    if (!array_extend(&p->build->a->memory, owner, pieces))
         return accel_build_no_memory(p->build);
     for (size_t i = 0; i < pieces; i++) {
-        const uint32_t part = p->units.count > 0 ? p->units.at[i].home : (uint32_t)i;
-        home->at[i] = p->part.at[accel_parts_root(p, part)].count;
+        const uint32_t part = p->units.count > 0 ? p->units.at[i].owner : (uint32_t)i;
+        owner->at[i] = p->part.at[accel_parts_root(p, part)].count;
     }
     return true;
 }
 
 /* Counting sort of the ids by cluster. */
-static void sort_ids(const struct parts *p, struct clustering *c, const struct ids *home)
+static void sort_ids(const struct parts *p, struct clustering *c, const struct ids *owner)
 {
     const struct ids *bounded = &p->build->a->prims.bounded;
     for (size_t i = 0; i < bounded->count; i++) {
-        struct cluster *cluster = &c->clusters.at[home->at[p->piece_of.at[i]]];
+        struct cluster *cluster = &c->clusters.at[owner->at[p->piece_of.at[i]]];
         c->order.at[cluster->first++] = bounded->at[i];
     }
     for (size_t i = 0; i < c->clusters.count; i++)
@@ -116,17 +117,17 @@ static bool order_ids(struct parts *p, struct clustering *c)
 {
     const struct ids *bounded = &p->build->a->prims.bounded;
     struct memory *m = &p->build->a->memory;
-    struct ids home = {0};
+    struct ids owner = {0};
     if (!array_extend(m, &c->order, bounded->count))
         return accel_build_no_memory(p->build);
     if (c->clusters.count == 1) {
         memcpy(c->order.at, bounded->at, bounded->count * sizeof *bounded->at);
         return true;
     }
-    const bool fine = find_homes(p, &home);
+    const bool fine = find_owners(p, &owner);
     if (fine)
-        sort_ids(p, c, &home);
-    array_free(m, &home);
+        sort_ids(p, c, &owner);
+    array_free(m, &owner);
     return fine;
 }
 
@@ -140,7 +141,7 @@ bool accel_cluster_scene(struct build *build, struct clustering *c, struct clust
     array_free(m, &p.piece_of);
     array_free(m, &p.part);
     c->size_classes = p.sizes.classes;
-    c->looks = p.looks;
+    c->visits = p.visits;
     build->a->info.size_classes = c->size_classes;
     build->a->info.clusters = (uint32_t)c->clusters.count;
     return fine;

@@ -23,7 +23,7 @@ struct clustering {
     struct ids order;                  /* the bounded ids, grouped by cluster */
     ARRAY_OF(struct cluster) clusters; /* by size class, then along a space-filling curve */
     uint32_t size_classes;             /* that hold something */
-    uint64_t looks; /* at cells and at what they hold: the work that might not be linear */
+    uint64_t visits; /* at cells and at what they hold: the work that might not be linear */
 };
 
 /* What the user may decide. */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
  * Step 1b of clustering: primitives of one size class with their middles in one cell become a part.
- * The grid is as fine as the places where primitives are (cluster_look.c), so a part is a few of
+ * The grid is as fine as the places where primitives are (cluster_sample.c), so a part is a few of
  * them, and what follows handles parts only.
  *
  * Where primitives are not loose, a cell may hold things that do not touch, such as a bit of floor
@@ -46,7 +46,7 @@ struct binner {
 
 /* A primitive on its way into a part: the slabs where it begins and ends, counted from the scene's
  * corner, and the cell of its middle. */
-struct guest {
+struct entry {
     uint32_t lo[3], hi[3], cell[3];
 };
 
@@ -75,10 +75,10 @@ static inline uint32_t slab_of(const struct frame *f, const struct grid *grid, d
     return (uint32_t)(int32_t)((at - f->lo[k]) * grid->scale);
 }
 
-static inline struct guest guest_of(const struct frame *f, const struct grid *grid,
+static inline struct entry entry_of(const struct frame *f, const struct grid *grid,
                                     const accel_box *box)
 {
-    struct guest g;
+    struct entry g;
     for (int k = 0; k < 3; k++) {
         g.lo[k] = slab_of(f, grid, box->lo[k], k);
         g.hi[k] = slab_of(f, grid, box->hi[k], k);
@@ -87,7 +87,7 @@ static inline struct guest guest_of(const struct frame *f, const struct grid *gr
     return g;
 }
 
-/* The first slab of the cell that a guest meets, and the last: as its middle is in the cell, it
+/* The first slab of the cell that an entry meets, and the last: as its middle is in the cell, it
  * begins at most before it, and ends at most behind it. */
 static inline uint32_t first_in(uint32_t lo, uint32_t cell)
 {
@@ -99,7 +99,7 @@ static inline uint32_t last_in(uint32_t hi, uint32_t cell)
     return hi - cell * SLABS < SLABS ? hi - cell * SLABS : SLABS - 1;
 }
 
-static inline void meet(const struct binner *b, struct slabs *s, const struct guest *g)
+static inline void meet(const struct binner *b, struct slabs *s, const struct entry *g)
 {
     for (int k = 0; k < 3; k++) {
         const uint32_t first = first_in(g->lo[k], g->cell[k]), last = last_in(g->hi[k], g->cell[k]);
@@ -152,11 +152,11 @@ __attribute__((always_inline)) static inline bool fill_as(struct binner *b, bool
     for (size_t i = 0; i < bounded.count; i++) {
         const accel_box *box = &boxes[bounded.at[i]];
         const uint32_t class = class_of(p, box);
-        struct guest g;
+        struct entry g;
         if (loose)
             find_cell(&frame, &b->grid[class], box, g.cell);
         else
-            g = guest_of(&frame, &b->grid[class], box);
+            g = entry_of(&frame, &b->grid[class], box);
         const uint32_t number = part_of(b, class, g.cell, loose);
         if (number == ACCEL_NONE)
             return accel_build_no_memory(p->build);
@@ -216,12 +216,12 @@ static uint32_t pieces_of(const struct slabs *s)
     return pieces;
 }
 
-/* Gives each part that is to be split its place in `pieces`. *crumbs tells that most primitives are
- * in parts that fall apart into crumbs. False: no memory. */
-static bool plan_pieces(struct binner *b, bool *crumbs)
+/* Gives each part that is to be split its place in `pieces`. *fragments tells that most primitives
+ * are in parts that fall apart into fragments. False: no memory. */
+static bool plan_pieces(struct binner *b, bool *fragments)
 {
     const struct parts *p = b->parts;
-    size_t cut = 0, crumbled = 0;
+    size_t cut = 0, fragmented = 0;
     if (!array_extend(memory_of(b), &b->first_of, p->part.count))
         return accel_build_no_memory(p->build);
     for (size_t i = 0; i < p->part.count; i++) {
@@ -230,10 +230,10 @@ static bool plan_pieces(struct binner *b, bool *crumbs)
             pieces > 1 && pieces <= (uint64_t)count + MOST_SPARE && cut + pieces <= ACCEL_NONE;
         b->first_of.at[i] = split ? (uint32_t)cut : ACCEL_NONE;
         cut += split ? pieces : 0;
-        crumbled += pieces > 1 && pieces > count / PARTS_CRUMB ? count : 0;
+        fragmented += pieces > 1 && pieces > count / PARTS_FRAGMENT ? count : 0;
     }
-    *crumbs = 2 * crumbled > p->build->a->prims.bounded.count;
-    if (*crumbs || cut == 0)
+    *fragments = 2 * fragmented > p->build->a->prims.bounded.count;
+    if (*fragments || cut == 0)
         return true;
     if (!array_extend(memory_of(b), &b->pieces, cut))
         return accel_build_no_memory(p->build);
@@ -306,7 +306,7 @@ static bool make(struct binner *b, bool *loose)
     return fill_as(b, false) && plan_pieces(b, loose) && (b->pieces.count == 0 || move(b));
 }
 
-bool accel_parts_bin(struct parts *p, struct look *look)
+bool accel_parts_bin(struct parts *p, struct parts_sample *sample)
 {
     struct binner b = {.parts = p};
     struct memory *m = memory_of(&b);
@@ -315,13 +315,13 @@ bool accel_parts_bin(struct parts *p, struct look *look)
         b.upto[i] = UINT64_MAX >> (SLABS - 1 - i);
     }
     for (uint32_t c = 0; c < p->sizes.classes; c++) {
-        const uint32_t o = look->octave[c];
+        const uint32_t o = sample->octave[c];
         const double scale = p->sizes.frame.scale * (double)(SLABS << o);
         b.grid[c] = (struct grid){o, scale, b.table_size};
         b.table_size += (size_t)1 << 3 * o;
     }
-    const bool fine = make(&b, &look->loose);
-    p->looks += p->build->a->prims.bounded.count;
+    const bool fine = make(&b, &sample->loose);
+    p->visits += p->build->a->prims.bounded.count;
     if (b.table)
         accel_memory_resize(m, b.table, b.table_size * sizeof *b.table, 0);
     accel_cells_free(m, &b.cells);

@@ -63,7 +63,7 @@ struct cell_slot {
 /* Zero is empty. */
 struct cells {
     struct cell_slot *slot; /* room of them */
-    size_t room, used;      /* room is 0 or a power of two */
+    size_t capacity, used;  /* room is 0 or a power of two */
 };
 
 /* Two rounds of multiplicative hashing: neighbouring cells differ in a few bits far apart. */
@@ -76,16 +76,16 @@ static inline uint32_t cell_hash(uint64_t key)
 
 static inline struct cell_slot *cells_probe(const struct cells *c, uint64_t key)
 {
-    size_t at = cell_hash(key) & (c->room - 1);
+    size_t at = cell_hash(key) & (c->capacity - 1);
     while (c->slot[at].value != ACCEL_NONE && c->slot[at].key != key)
-        at = (at + 1) & (c->room - 1);
+        at = (at + 1) & (c->capacity - 1);
     return &c->slot[at];
 }
 
 /* The cell's value, ACCEL_NONE if it is not stored. */
 static inline uint32_t cells_get(const struct cells *c, uint64_t key)
 {
-    return c->room ? cells_probe(c, key)->value : ACCEL_NONE;
+    return c->capacity ? cells_probe(c, key)->value : ACCEL_NONE;
 }
 
 /* Makes room for so many cells. Zero before. */

@@ -80,13 +80,13 @@ static bool connect_unit(struct connector *k, struct unit *u, uint32_t grid)
     const struct parts *p = k->parts;
     const accel_box box = frame_box(&p->sizes.frame, &u->box);
     const struct touch_rule own = rule_for(k, u->octave, grid);
-    u->home = accel_touching_enter(memory_of(p), &k->touching, &box, own);
-    if (u->home == ACCEL_NONE)
+    u->owner = accel_touching_enter(memory_of(p), &k->touching, &box, own);
+    if (u->owner == ACCEL_NONE)
         return accel_build_no_memory(p->build);
     if (grid >= SIZES_PER_GRID && k->begin[grid - SIZES_PER_GRID] != k->begin[grid - 1]) {
         const struct touch_rule next = rule_for(k, u->octave, grid - SIZES_PER_GRID);
         if (next.octave != own.octave)
-            accel_touching_join(&k->touching, &box, next, u->home);
+            accel_touching_join(&k->touching, &box, next, u->owner);
     }
     return true;
 }
@@ -110,10 +110,10 @@ static bool number_parts(struct connector *k, uint32_t *number)
     memset(number, 0xff, k->touching.groups.count * sizeof *number);
     for (size_t i = 0; i < p->units.count; i++) {
         struct unit *u = &p->units.at[i];
-        uint32_t *part = &number[accel_touching_root(&k->touching, u->home)];
+        uint32_t *part = &number[accel_touching_root(&k->touching, u->owner)];
         if (*part == ACCEL_NONE && !accel_parts_new(p, p->sizes.class_of[u->octave], part))
             return false;
-        u->home = *part;
+        u->owner = *part;
         box_add(&p->part.at[*part].box, &u->box);
         p->part.at[*part].count += u->count;
         if (!parts_tick(p, i))
@@ -138,7 +138,7 @@ bool accel_parts_connect(struct parts *p, double connectivity)
 {
     struct connector k = {.parts = p, .connectivity = connectivity};
     const bool fine = measure(&k) && connect_units(&k) && make_parts(&k);
-    p->looks += k.touching.looks;
+    p->visits += k.touching.visits;
     array_free(memory_of(p), &k.order);
     accel_touching_free(memory_of(p), &k.touching);
     return fine;

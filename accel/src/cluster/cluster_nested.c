@@ -17,13 +17,13 @@
 #include "../core/order.h"
 #include "cluster_parts.h"
 
-enum { TINY = 8, LOOKED_AT = 8, ROUNDS = 3 };
+enum { TINY = 8, MOST_VISITED = 8, ROUNDS = 3 };
 
 /* A tiny part joins where the box of both has no more than this of the larger's surface. */
 #define NEARLY 1.1
 
 /* A part's entry in a cell. */
-struct guest {
+struct entry {
     uint32_t part; /* perhaps joined with another since */
     uint32_t next; /* in the same cell */
 };
@@ -31,9 +31,9 @@ struct guest {
 struct nester {
     struct parts *parts;
     ARRAY_OF(struct keyed) order; /* root parts from large to small */
-    struct cells cells;           /* each with its first guest */
-    ARRAY_OF(struct guest) guests;
-    bool octaves[CELLS_OCTAVES]; /* that have guests */
+    struct cells cells;           /* each with its first entry */
+    ARRAY_OF(struct entry) entries;
+    bool octaves[CELLS_OCTAVES]; /* that have entries */
     bool joined;                 /* anything in this round */
 };
 
@@ -80,14 +80,15 @@ static bool gain_of(const struct parts *p, const struct cluster *a, const struct
     return *gain > 0.0 || (b->count < TINY && box_area(&unit) <= NEARLY * box_area(&larger));
 }
 
-/* Looks at the guests of one cell. */
-static void look(struct nester *n, uint32_t guest, uint32_t part, struct choice *best)
+/* Looks at the entries of one cell. */
+static void consider(struct nester *n, uint32_t entry, uint32_t part, struct choice *best)
 {
     struct parts *p = n->parts;
-    p->looks++;
-    for (int i = 0; guest != ACCEL_NONE && i < LOOKED_AT; i++, guest = n->guests.at[guest].next) {
-        const uint32_t host = accel_parts_root(p, n->guests.at[guest].part);
-        p->looks++;
+    p->visits++;
+    for (int i = 0; entry != ACCEL_NONE && i < MOST_VISITED;
+         i++, entry = n->entries.at[entry].next) {
+        const uint32_t host = accel_parts_root(p, n->entries.at[entry].part);
+        p->visits++;
         const struct cluster *a = &p->part.at[host], *b = &p->part.at[part];
         double gain;
         if (box_overlaps(&a->box, &b->box) && gain_of(p, a, b, &gain) &&
@@ -107,8 +108,8 @@ static struct choice choose(struct nester *n, uint32_t part, const accel_box *un
         for (c[2] = s.first[2]; c[2] <= s.last[2]; c[2]++)
             for (c[1] = s.first[1]; c[1] <= s.last[1]; c[1]++)
                 for (c[0] = s.first[0]; c[0] <= s.last[0]; c[0]++)
-                    look(n, cells_get(&n->cells, cell_key(0, octave, c[0], c[1], c[2])), part,
-                         &best);
+                    consider(n, cells_get(&n->cells, cell_key(0, octave, c[0], c[1], c[2])), part,
+                             &best);
     }
     return best;
 }
@@ -116,10 +117,10 @@ static struct choice choose(struct nester *n, uint32_t part, const accel_box *un
 static bool enter_cell(struct nester *n, uint64_t key, uint32_t part)
 {
     struct cell_slot *slot = accel_cells_at(memory_of(n), &n->cells, key);
-    if (!slot || n->guests.count == ACCEL_NONE || !array_extend(memory_of(n), &n->guests, 1))
+    if (!slot || n->entries.count == ACCEL_NONE || !array_extend(memory_of(n), &n->entries, 1))
         return accel_build_no_memory(n->parts->build);
-    n->guests.at[n->guests.count - 1] = (struct guest){part, slot->value};
-    slot->value = (uint32_t)n->guests.count - 1;
+    n->entries.at[n->entries.count - 1] = (struct entry){part, slot->value};
+    slot->value = (uint32_t)n->entries.count - 1;
     return true;
 }
 
@@ -167,7 +168,7 @@ bool accel_parts_join_nested(struct parts *p)
         fine = go_round(&n);
         joined = n.joined;
         array_free(memory_of(&n), &n.order);
-        array_free(memory_of(&n), &n.guests);
+        array_free(memory_of(&n), &n.entries);
         accel_cells_free(memory_of(&n), &n.cells);
     }
     return fine;

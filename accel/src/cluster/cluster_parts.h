@@ -15,7 +15,7 @@ struct unit {
     uint32_t count;  /* primitives */
     uint32_t octave; /* of its first primitive's size */
     uint32_t next;   /* opened before it in its cell */
-    uint32_t home;   /* its component, then its part */
+    uint32_t owner;  /* its component, then its part */
 };
 
 struct parts {
@@ -26,8 +26,8 @@ struct parts {
     piece_of;                      /* by position in the list of bounded ids: with a given
                                       connectivity its unit, else its part */
     ARRAY_OF(struct cluster) part; /* by piece or component; `first` is its union-find parent */
-    uint32_t crumb;                /* parts of fewer primitives are crumbs */
-    uint64_t looks;                /* at cells and what is in them, so far */
+    uint32_t fragment;             /* parts of fewer primitives are fragments */
+    uint64_t visits;               /* at cells and what is in them, so far */
     double now;                    /* progress to report meanwhile */
 };
 
@@ -74,24 +74,24 @@ static inline uint64_t parts_middle(const struct parts *p, uint32_t class, uint3
     return cell_key(class, octave, c[0], c[1], c[2]);
 }
 
-/* A part of fewer primitives than this is a crumb: an octree would not pay for it. More than the 12
- * triangles of a cube, which the paper's octrees hold in one leaf. Where primitives are loose, all
- * parts are crumbs. */
-enum { PARTS_CRUMB = 16 };
+/* A part of fewer primitives than this is a fragment: an octree would not pay for it. More than the
+ * 12 triangles of a cube, which the paper's octrees hold in one leaf. Where primitives are loose,
+ * all parts are fragments. */
+enum { PARTS_FRAGMENT = 16 };
 
 /* What a sample tells. */
-struct look {
+struct parts_sample {
     bool loose;                     /* most primitives touch hardly any others */
     uint32_t octave[CELLS_OCTAVES]; /* by class: of cells that hold some primitives where there are
                                        any */
 };
 
-/* Looks at a sample: see cluster_look.c. */
-bool accel_parts_look(const struct parts *p, struct look *look);
+/* Looks at a sample: see cluster_sample.c. */
+bool accel_parts_sample(const struct parts *p, struct parts_sample *sample);
 
 /* Makes parts of what is together in the cells of the octave: see cluster_bins.c. What falls apart
- * into crumbs becomes loose. */
-bool accel_parts_bin(struct parts *p, struct look *look);
+ * into fragments becomes loose. */
+bool accel_parts_bin(struct parts *p, struct parts_sample *sample);
 
 /* Makes units of all primitives: see cluster_units.c. */
 bool accel_parts_make_units(struct parts *p);
@@ -99,10 +99,11 @@ bool accel_parts_make_units(struct parts *p);
 /* Makes parts of what is near: see cluster_near.c. */
 bool accel_parts_connect(struct parts *p, double connectivity);
 
-/* Joins parts of one size class that touch, and crumbs of one that are near each other, beginning
- * with half of a cell that the look found; NULL: with the size of a crumb. See cluster_crumbs.c. */
+/* Joins parts of one size class that touch, and fragments of one that are near each other,
+ * beginning with half of a cell that the look found; NULL: with the size of a fragment. See
+ * cluster_fragments.c. */
 bool accel_parts_join_touching(struct parts *p);
-bool accel_parts_join_crumbs(struct parts *p, const struct look *look);
+bool accel_parts_join_fragments(struct parts *p, const struct parts_sample *sample);
 
 /* Joins parts that lie in each other's boxes: see cluster_nested.c. */
 bool accel_parts_join_nested(struct parts *p);

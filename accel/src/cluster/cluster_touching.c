@@ -72,7 +72,7 @@ static uint32_t gather(struct touching *t, uint32_t *list, struct part *p, bool 
         again = false;
         for (uint32_t *at = list; *at != ACCEL_NONE;) {
             struct group *g = &t->groups.at[*at];
-            t->looks++;
+            t->visits++;
             if (!all && !touches(g, p)) {
                 at = &g->next;
                 continue;
@@ -112,7 +112,7 @@ static bool enter_cell(struct memory *m, struct touching *t, uint64_t key, struc
     struct cell_slot *slot = accel_cells_at(m, &t->cells, key);
     if (!slot)
         return false;
-    t->looks++;
+    t->visits++;
     uint32_t list = slot->value;
     uint32_t mine = gather(t, &list, p, false);
     if (mine == ACCEL_NONE && length(t, list) >= CROWD)
@@ -156,9 +156,9 @@ uint32_t accel_touching_enter(struct memory *m, struct touching *t, const accel_
 /* Joins `group` with those of a cell's list that the part touches. */
 static void join_list(struct touching *t, uint32_t list, const struct part *p, uint32_t group)
 {
-    t->looks++;
+    t->visits++;
     for (; list != ACCEL_NONE; list = t->groups.at[list].next) {
-        t->looks++;
+        t->visits++;
         if (touches(&t->groups.at[list], p))
             unite(t, group, list);
     }

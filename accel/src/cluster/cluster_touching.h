@@ -30,7 +30,7 @@ struct group {
 struct touching {
     struct cells cells; /* each with its first group */
     ARRAY_OF(struct group) groups;
-    uint64_t looks; /* at cells and groups, so far */
+    uint64_t visits; /* at cells and groups, so far */
 };
 
 /* Makes room for about so many boxes. Zero before. */

@@ -12,7 +12,7 @@
 
 enum {
     PER_OPEN_UNIT = 8, /* primitives for each place in the table of cells */
-    LOOKED_AT = 4      /* open units of a cell */
+    MOST_VISITED = 4   /* open units of a cell */
 };
 
 /* A cell and the unit opened last in it. */
@@ -24,7 +24,7 @@ struct open_cell {
 struct opener {
     struct parts *parts;
     struct open_cell *cells; /* `room` of them, a power of two, by hash */
-    size_t room;
+    size_t capacity;
     uint32_t last; /* unit of the primitive before, or ACCEL_NONE */
 };
 
@@ -57,7 +57,7 @@ static bool join(struct parts *p, uint32_t unit, const struct joiner *j)
 /* The unit of the cell that takes the box, or ACCEL_NONE. */
 static uint32_t join_in_cell(struct parts *p, uint32_t unit, const struct joiner *j)
 {
-    for (int i = 0; unit != ACCEL_NONE && i < LOOKED_AT; i++) {
+    for (int i = 0; unit != ACCEL_NONE && i < MOST_VISITED; i++) {
         if (join(p, unit, j))
             return unit;
         unit = p->units.at[unit].next;
@@ -87,7 +87,7 @@ static uint32_t put(struct opener *o, const accel_box *box)
         return o->last;
     const uint32_t coarse = j.grid > SIZES_PER_GRID ? j.grid - SIZES_PER_GRID : 0;
     const uint64_t key = parts_middle(p, j.class, coarse, box);
-    struct open_cell *cell = &o->cells[cell_hash(key) & (o->room - 1)];
+    struct open_cell *cell = &o->cells[cell_hash(key) & (o->capacity - 1)];
     if (cell->key != key)
         *cell = (struct open_cell){key, ACCEL_NONE};
     const uint32_t unit = join_in_cell(p, cell->unit, &j);
@@ -112,17 +112,17 @@ static bool fill(struct opener *o)
 bool accel_parts_make_units(struct parts *p)
 {
     const size_t count = p->build->a->prims.bounded.count;
-    struct opener o = {.parts = p, .room = 64, .last = ACCEL_NONE};
-    while (o.room < count / PER_OPEN_UNIT)
-        o.room *= 2;
-    o.cells = accel_memory_resize(memory_of(p), NULL, 0, o.room * sizeof *o.cells);
+    struct opener o = {.parts = p, .capacity = 64, .last = ACCEL_NONE};
+    while (o.capacity < count / PER_OPEN_UNIT)
+        o.capacity *= 2;
+    o.cells = accel_memory_resize(memory_of(p), NULL, 0, o.capacity * sizeof *o.cells);
     if (!o.cells || !array_extend(memory_of(p), &p->piece_of, count)) {
         if (o.cells)
-            accel_memory_resize(memory_of(p), o.cells, o.room * sizeof *o.cells, 0);
+            accel_memory_resize(memory_of(p), o.cells, o.capacity * sizeof *o.cells, 0);
         return accel_build_no_memory(p->build);
     }
-    memset(o.cells, 0xff, o.room * sizeof *o.cells);
+    memset(o.cells, 0xff, o.capacity * sizeof *o.cells);
     const bool fine = fill(&o);
-    accel_memory_resize(memory_of(p), o.cells, o.room * sizeof *o.cells, 0);
+    accel_memory_resize(memory_of(p), o.cells, o.capacity * sizeof *o.cells, 0);
     return fine;
 }

@@ -30,21 +30,21 @@ void *accel_memory_resize(struct memory *m, void *old, size_t from, size_t to)
     return block;
 }
 
-bool accel_memory_room(struct memory *m, void **at, size_t *room, size_t need, size_t size)
+bool accel_memory_room(struct memory *m, void **at, size_t *capacity, size_t need, size_t size)
 {
-    if (need <= *room)
+    if (need <= *capacity)
         return true;
-    size_t grown = *room + *room / 2;
+    size_t grown = *capacity + *capacity / 2;
     if (grown < need)
         grown = need;
     if (grown > SIZE_MAX / size) {
         m->refused = SIZE_MAX;
         return false;
     }
-    void *block = accel_memory_resize(m, *at, *room * size, grown * size);
+    void *block = accel_memory_resize(m, *at, *capacity * size, grown * size);
     if (!block)
         return false;
     *at = block;
-    *room = grown;
+    *capacity = grown;
     return true;
 }

@@ -25,17 +25,17 @@ void *accel_memory_system(void *user, void *old, size_t from, size_t to);
 void *accel_memory_resize(struct memory *m, void *old, size_t from, size_t to);
 
 /* Gives `*at`, an array of `*room` elements of `size` bytes, room for `need` of them. */
-bool accel_memory_room(struct memory *m, void **at, size_t *room, size_t need, size_t size);
+bool accel_memory_room(struct memory *m, void **at, size_t *capacity, size_t need, size_t size);
 
 /* A growable array: at[0 .. count - 1] are in use, there is room for `room`. Zero is empty. */
 #define ARRAY_OF(type)                                                                             \
     struct {                                                                                       \
         type *at;                                                                                  \
-        size_t count, room;                                                                        \
+        size_t count, capacity;                                                                    \
     }
 
 #define array_reserve(m, a, need)                                                                  \
-    accel_memory_room((m), (void **)&(a)->at, &(a)->room, (need), sizeof *(a)->at)
+    accel_memory_room((m), (void **)&(a)->at, &(a)->capacity, (need), sizeof *(a)->at)
 
 /* Makes `more` new elements at the end; their content is undefined. */
 #define array_extend(m, a, more)                                                                   \
@@ -44,19 +44,19 @@ bool accel_memory_room(struct memory *m, void **at, size_t *room, size_t need, s
 /* Gives back the room that is not used. */
 #define array_trim(m, a)                                                                           \
     do {                                                                                           \
-        void *trimmed_ = accel_memory_resize((m), (a)->at, (a)->room * sizeof *(a)->at,            \
+        void *trimmed_ = accel_memory_resize((m), (a)->at, (a)->capacity * sizeof *(a)->at,        \
                                              (a)->count * sizeof *(a)->at);                        \
         if (trimmed_ || (a)->count == 0) {                                                         \
             (a)->at = trimmed_;                                                                    \
-            (a)->room = (a)->count;                                                                \
+            (a)->capacity = (a)->count;                                                            \
         }                                                                                          \
     } while (0)
 
 #define array_free(m, a)                                                                           \
     do {                                                                                           \
-        accel_memory_resize((m), (a)->at, (a)->room * sizeof *(a)->at, 0);                         \
+        accel_memory_resize((m), (a)->at, (a)->capacity * sizeof *(a)->at, 0);                     \
         (a)->at = NULL;                                                                            \
-        (a)->count = (a)->room = 0;                                                                \
+        (a)->count = (a)->capacity = 0;                                                            \
     } while (0)
 
 #endif

@@ -68,11 +68,11 @@ void accel_query_prepare(struct query *q, const accel *a, const accel_ray *ray)
     prepare_shear(q);
 }
 
-static void give_room(struct query *q, struct found *found, uint16_t *order, uint32_t room)
+static void give_room(struct query *q, struct found *found, uint16_t *order, uint32_t capacity)
 {
     q->found = found;
     q->order = order;
-    q->room = room;
+    q->capacity = capacity;
 }
 
 /* One walk: the first hits after q->last. Things without bounds come first: they may set the
@@ -163,11 +163,11 @@ typedef bool visit_found(void *visitor, const struct primitives *p, const struct
  * pile of that; if such a pile came to its end, what has a greater key. */
 static void go_on(struct query *q)
 {
-    if (q->count == q->room)
+    if (q->count == q->capacity)
         q->last = q->found[q->order[q->count - 1]];
     else
         q->last.id = ACCEL_NONE;
-    q->pile = q->count == q->room && q->found[q->order[q->count / 2]].key == q->last.key;
+    q->pile = q->count == q->capacity && q->found[q->order[q->count / 2]].key == q->last.key;
     q->batch = true;
     if (q->prims->by_key && !q->point)
         q->begin = q->last.key;
@@ -180,7 +180,7 @@ static bool visit_batch(struct query *q, const accel *a, visit_found *visit, voi
     walk(q, a);
     for (uint32_t i = 0; i < q->count && !*stopped; i++)
         *stopped = !visit(visitor, q->prims, &q->found[q->order[i]]);
-    if (*stopped || (q->count < q->room && !q->pile))
+    if (*stopped || (q->count < q->capacity && !q->pile))
         return false;
     go_on(q);
     return true;
@@ -188,14 +188,14 @@ static bool visit_batch(struct query *q, const accel *a, visit_found *visit, voi
 
 /* The batches after the first: larger, as each is a walk that may test all of a pile again. Apart,
  * so that the stack holds this room where it is needed only. */
-__attribute__((noinline)) static void visit_later(struct query *q, const accel *a,
-                                                  visit_found *visit, void *visitor, bool *stopped)
+__attribute__((noinline)) static void
+visit_deferred(struct query *q, const accel *a, visit_found *visit, void *visitor, bool *stopped)
 {
     struct found found[QUERY_LATER];
     uint16_t order[QUERY_LATER];
     give_room(q, found, order, QUERY_LATER / 4);
     while (visit_batch(q, a, visit, visitor, stopped))
-        q->room = QUERY_LATER;
+        q->capacity = QUERY_LATER;
 }
 
 /* False if the visitor said stop. */
@@ -206,7 +206,7 @@ static bool visit_all(struct query *q, const accel *a, visit_found *visit, void 
     bool stopped = false;
     give_room(q, found, order, QUERY_BATCH);
     if (visit_batch(q, a, visit, visitor, &stopped))
-        visit_later(q, a, visit, visitor, &stopped);
+        visit_deferred(q, a, visit, visitor, &stopped);
     account(q);
     return !stopped;
 }

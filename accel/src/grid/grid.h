@@ -62,7 +62,7 @@ struct grid_plan {
     double density;    /* cells per item that were asked for */
     double cost;       /* predicted, of a line that meets the grid's box, in visits of a node */
     double tests;      /* of that, for testing items */
-    double room;       /* factor on the bounds that keep memory in proportion to the items */
+    double capacity;   /* factor on the bounds that keep memory in proportion to the items */
     bool coarser;      /* than was asked for: for the bounds, or a pile */
 };
 

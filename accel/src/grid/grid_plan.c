@@ -31,7 +31,7 @@ enum { MAX_CELLS = 8192 };
 /* Bricks take 12 bytes, references 4. The constants let a few large items have some cells. */
 double accel_grid_plan_references(const struct grid_plan *plan, size_t count)
 {
-    return plan->room * (10.0 * (double)count + 256.0);
+    return plan->capacity * (10.0 * (double)count + 256.0);
 }
 
 bool accel_grid_plan_fits(const struct grid_plan *plan, size_t count)
@@ -39,7 +39,7 @@ bool accel_grid_plan_fits(const struct grid_plan *plan, size_t count)
     double bricks = 1.0;
     for (int k = 0; k < 3; k++)
         bricks *= (plan->cells[k] + GRID_BRICK - 1) / GRID_BRICK;
-    return bricks <= plan->room * (2.0 * (double)count + 64.0);
+    return bricks <= plan->capacity * (2.0 * (double)count + 64.0);
 }
 
 /* What is the same for all densities tried. */
@@ -157,11 +157,11 @@ static double predicted_cost(const struct planner *s, const uint32_t cells[3], s
 }
 
 /* The plan for one density. Its cost is infinite if it is out of bounds. */
-static struct grid_plan plan_density(const struct planner *s, double density, double room,
+static struct grid_plan plan_density(const struct planner *s, double density, double capacity,
                                      size_t stride)
 {
     const size_t count = s->items.count;
-    struct grid_plan plan = {.density = density, .cost = (double)INFINITY, .room = room};
+    struct grid_plan plan = {.density = density, .cost = (double)INFINITY, .capacity = capacity};
     divide(s->side, fmax(1.0, density * (double)count), plan.cells);
     if (!accel_grid_plan_fits(&plan, count))
         return plan;
@@ -204,7 +204,7 @@ double accel_grid_list_cost(const struct primitives *p, struct grid_items items)
 struct grid_plan accel_grid_plan_given(const accel_box *box, uint32_t cells)
 {
     struct planner s = {.box = box};
-    struct grid_plan plan = {.room = GIVEN_ROOM};
+    struct grid_plan plan = {.capacity = GIVEN_ROOM};
     measure_box(&s);
     for (int k = 0; k < 3; k++)
         plan.cells[k] = s.side[k] > FLAT ? cells : 1;

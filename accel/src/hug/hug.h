@@ -43,7 +43,7 @@ enum hug_form { HUG_FORM_DENSITY, HUG_FORM_PAPER };
 
 /* Which grid everything belongs to. */
 struct hug_nesting {
-    struct ids home;   /* by cluster: the grid that has its primitives as items */
+    struct ids owner;  /* by cluster: the grid that has its primitives as items */
     struct ids parent; /* by cluster's grid: the grid around it; 0 for grid 0 */
     size_t lists;      /* clusters without a grid */
 };

@@ -68,13 +68,13 @@ struct builder {
 static bool count_items(struct builder *b)
 {
     const struct clustering *c = &b->clustering;
-    const struct ids *home = &b->nesting.home;
+    const struct ids *owner = &b->nesting.owner;
     const size_t grids = b->h->pool.grids.count;
     if (!array_extend(&b->build->a->memory, &b->begin, grids + 1))
         return accel_build_no_memory(b->build);
     memset(b->begin.at, 0, b->begin.count * sizeof *b->begin.at);
     for (size_t i = 0; i < c->clusters.count; i++)
-        b->begin.at[home->at[i] + 1] += c->clusters.at[i].count;
+        b->begin.at[owner->at[i] + 1] += c->clusters.at[i].count;
     for (size_t i = 1; i < grids; i++)
         b->begin.at[b->nesting.parent.at[i] + 1]++;
     for (size_t i = 0; i < grids; i++)
@@ -83,12 +83,12 @@ static bool count_items(struct builder *b)
 }
 
 /* Enters ids in rising order, then grids; leaves begin[i] at the end of run i. */
-static bool enter_items(struct builder *b, const uint32_t *home_of)
+static bool enter_items(struct builder *b, const uint32_t *owner_of)
 {
     const struct primitives *p = &b->build->a->prims;
     for (size_t i = 0; i < p->bounded.count; i++) {
         const uint32_t id = p->bounded.at[i];
-        b->items.at[b->begin.at[home_of[id]]++] = id;
+        b->items.at[b->begin.at[owner_of[id]]++] = id;
         if (i % 4096 == 0 &&
             !accel_build_tick(b->build, HUG_NESTED + (1.0 - HUG_NESTED) * (double)i /
                                                          (double)p->bounded.count))
@@ -100,34 +100,34 @@ static bool enter_items(struct builder *b, const uint32_t *home_of)
 }
 
 /* Which grid each primitive is an item of. */
-static void find_homes(const struct builder *b, uint32_t *home_of)
+static void find_owners(const struct builder *b, uint32_t *owner_of)
 {
     const struct clustering *c = &b->clustering;
     for (size_t i = 0; i < c->clusters.count; i++) {
         const struct cluster *cluster = &c->clusters.at[i];
         for (uint32_t j = cluster->first; j < cluster->first + cluster->count; j++)
-            home_of[c->order.at[j]] = b->nesting.home.at[i];
+            owner_of[c->order.at[j]] = b->nesting.owner.at[i];
     }
 }
 
 static bool gather_items(struct builder *b)
 {
     struct memory *m = &b->build->a->memory;
-    struct ids home_of = {NULL, 0, 0};
+    struct ids owner_of = {NULL, 0, 0};
     bool fine = count_items(b);
     if (!fine)
         return false;
     const size_t total = b->begin.at[b->begin.count - 1];
-    fine = (array_extend(m, &home_of, b->build->a->prims.count) &&
+    fine = (array_extend(m, &owner_of, b->build->a->prims.count) &&
             array_extend(m, &b->items, total)) ||
            accel_build_no_memory(b->build);
     if (fine) {
-        find_homes(b, home_of.at);
-        fine = enter_items(b, home_of.at);
+        find_owners(b, owner_of.at);
+        fine = enter_items(b, owner_of.at);
         memmove(b->begin.at + 1, b->begin.at, (b->begin.count - 1) * sizeof *b->begin.at);
         b->begin.at[0] = 0;
     }
-    array_free(m, &home_of);
+    array_free(m, &owner_of);
     return fine;
 }
 

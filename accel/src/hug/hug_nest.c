@@ -46,7 +46,7 @@ static bool rank(struct nester *s)
     struct memory *m = &s->build->a->memory;
     const size_t count = s->c->clusters.count;
     if (!array_extend(m, &s->order, count) || !array_extend(m, &s->rank, count) ||
-        !array_extend(m, &s->around, count) || !array_extend(m, &s->n->home, count))
+        !array_extend(m, &s->around, count) || !array_extend(m, &s->n->owner, count))
         return accel_build_no_memory(s->build);
     for (uint32_t i = 0; i < count; i++)
         s->order.at[i] = (struct keyed){falling(box_area(&s->c->clusters.at[i].box)), i};
@@ -178,8 +178,8 @@ static bool add_grid(struct nester *s, const accel_box *box, uint32_t parent, ui
 static bool place(struct nester *s, uint32_t cluster)
 {
     const uint32_t around = s->around.at[cluster];
-    uint32_t parent = around == ACCEL_NONE ? 0 : s->n->home.at[around];
-    s->n->home.at[cluster] = parent;
+    uint32_t parent = around == ACCEL_NONE ? 0 : s->n->owner.at[around];
+    s->n->owner.at[cluster] = parent;
     if (!has_grid(s, cluster)) {
         s->n->lists++;
         return true;
@@ -190,7 +190,7 @@ static bool place(struct nester *s, uint32_t cluster)
         depth--;
         parent = s->n->parent.at[parent];
     }
-    s->n->home.at[cluster] = number;
+    s->n->owner.at[cluster] = number;
     return add_grid(s, &s->c->clusters.at[cluster].box, parent, depth);
 }
 
@@ -226,6 +226,6 @@ bool accel_hug_nest(struct build *build, struct grid_pool *pool, const struct cl
 
 void accel_hug_nesting_free(struct memory *m, struct hug_nesting *n)
 {
-    array_free(m, &n->home);
+    array_free(m, &n->owner);
     array_free(m, &n->parent);
 }

@@ -14,8 +14,8 @@
  * cluster, there is no tree above, and hoo is an octree over the scene's tight box.
  *
  * With lazy=on an octree is built when the first ray enters its cluster's box, one over many
- * primitives in parts (octree_later.h): the same octrees, but only where rays go. Clusters and the
- * tree above are built first, as rays find the octrees through them.
+ * primitives in parts (octree_deferred.h): the same octrees, but only where rays go. Clusters and
+ * the tree above are built first, as rays find the octrees through them.
  *
  * Invariant: every bounded primitive is in exactly one cluster; a cluster's box contains its padded
  * boxes, a node's boxes contain the clusters below.
@@ -24,7 +24,7 @@
  * cluster needs in all the others. Bad at: scenes that are one cluster gain nothing.
  */
 #include "../cluster/cluster.h"
-#include "../octree/octree_later.h"
+#include "../octree/octree_deferred.h"
 #include "../hoo/hoo_pairing.h"
 #include "../wide/wide_form.h"
 
@@ -34,12 +34,13 @@
 struct hoo_kind {
     accel base;
     struct clustering clustering;
-    ARRAY_OF(struct octree) trees;       /* by cluster */
-    struct octree_pool pool;             /* of all */
-    struct octree_lazy lazy;             /* how octrees are built that are built later */
-    ARRAY_OF(struct octree_later) later; /* by cluster; with lazy=on, instead of trees and pool */
-    struct boxtree top;                  /* over the clusters; no nodes if there is but one */
-    struct wide wide;                    /* of the wide form, instead of all that */
+    ARRAY_OF(struct octree) trees; /* by cluster */
+    struct octree_pool pool;       /* of all */
+    struct octree_lazy lazy;       /* how octrees are built that are built later */
+    ARRAY_OF(struct octree_deferred)
+    deferred;           /* by cluster; with lazy=on, instead of trees and pool */
+    struct boxtree top; /* over the clusters; no nodes if there is but one */
+    struct wide wide;   /* of the wide form, instead of all that */
 };
 
 enum { FORM, LEAF, DEPTH, CONNECTIVITY, OCTAVES, LAZY, PART, ISA };
@@ -75,12 +76,12 @@ static struct octree_rule octree_rule(const struct hoo_kind *h)
 static bool leave_octrees(struct build *build, struct hoo_kind *h)
 {
     const struct clustering *c = &h->clustering;
-    if (!array_extend(&h->base.memory, &h->later, c->clusters.count))
+    if (!array_extend(&h->base.memory, &h->deferred, c->clusters.count))
         return accel_build_no_memory(build);
     for (size_t i = 0; i < c->clusters.count; i++) {
         const struct cluster *cluster = &c->clusters.at[i];
-        h->later.at[i] = accel_octree_for_later(c->order.at + cluster->first, cluster->count,
-                                                &cluster->box, octree_rule(h));
+        h->deferred.at[i] = accel_octree_defer(c->order.at + cluster->first, cluster->count,
+                                               &cluster->box, octree_rule(h));
     }
     h->lazy = (struct octree_lazy){
         .a = &h->base, .rule = octree_rule(h), .whole = (uint32_t)h->base.option[PART]};
@@ -175,7 +176,7 @@ static void visit(const accel *a, struct query *q, struct boxtree_child leaf)
 static void visit_lazy(const accel *a, struct query *q, struct boxtree_child leaf)
 {
     const struct hoo_kind *h = (const struct hoo_kind *)a;
-    accel_octree_walk_lazy(&h->lazy, &h->later.at[leaf.first], q);
+    accel_octree_walk_lazy(&h->lazy, &h->deferred.at[leaf.first], q);
 }
 
 static void walk(const accel *a, struct query *q)
@@ -183,9 +184,9 @@ static void walk(const accel *a, struct query *q)
     const struct hoo_kind *h = (const struct hoo_kind *)a;
     if (h->wide.base)
         accel_wide_form_walk(&h->wide, q);
-    else if (h->later.count == 1)
-        accel_octree_walk_lazy(&h->lazy, &h->later.at[0], q);
-    else if (h->later.count > 1)
+    else if (h->deferred.count == 1)
+        accel_octree_walk_lazy(&h->lazy, &h->deferred.at[0], q);
+    else if (h->deferred.count > 1)
         boxtree_walk(a, h->top.nodes.at, q, visit_lazy);
     else if (h->trees.count == 1)
         accel_octree_walk(&h->pool, &h->trees.at[0], q);
@@ -198,8 +199,8 @@ static void describe_lazy(const accel *a, accel_info *info)
 {
     const struct hoo_kind *h = (const struct hoo_kind *)a;
     struct octree_census census = {.nodes = 0};
-    for (size_t i = 0; i < h->later.count; i++)
-        info->unbuilt_clusters += !accel_octree_count(&h->later.at[i], &census);
+    for (size_t i = 0; i < h->deferred.count; i++)
+        info->unbuilt_clusters += !accel_octree_count(&h->deferred.at[i], &census);
     info->unbuilt_primitives = census.unbuilt;
     info->lazy_bytes = census.bytes;
     info->nodes += census.nodes;
@@ -209,10 +210,10 @@ static void describe_lazy(const accel *a, accel_info *info)
     info->bytes += census.bytes;
     if (census.refused)
         accel_octree_note_refused(info);
-    if (h->later.count > 0)
+    if (h->deferred.count > 0)
         accel_info_note(info, "lazy: %u of %zu clusters and %llu of %zu primitives are not built",
-                        info->unbuilt_clusters, h->later.count, (unsigned long long)census.unbuilt,
-                        h->clustering.order.count);
+                        info->unbuilt_clusters, h->deferred.count,
+                        (unsigned long long)census.unbuilt, h->clustering.order.count);
 }
 
 /* ---------------------------------------------------------------------- validate ---- */
@@ -230,7 +231,7 @@ static bool check_cluster(const struct hoo_kind *h, size_t i, bool *seen, accel_
     const struct cluster *cluster = &c->clusters.at[i];
     if (cluster->count == 0 || (uint64_t)cluster->first + cluster->count > c->order.count)
         return broken(error, "no ids, or too many, in cluster", i);
-    const accel_box *root = h->later.count > 0 ? &h->later.at[i].box : &h->trees.at[i].box;
+    const accel_box *root = h->deferred.count > 0 ? &h->deferred.at[i].box : &h->trees.at[i].box;
     if (memcmp(root, &cluster->box, sizeof *root) != 0)
         return broken(error, "the octree has another box than its cluster,", i);
     const uint32_t *ids = c->order.at + cluster->first;
@@ -239,10 +240,10 @@ static bool check_cluster(const struct hoo_kind *h, size_t i, bool *seen, accel_
             return broken(error, "a wrong, repeated or misplaced id in cluster", i);
         seen[ids[j]] = true;
     }
-    return h->later.count > 0
-               ? accel_octree_validate_lazy(&h->lazy, &h->later.at[i], ids, cluster->count, error)
-               : accel_octree_validate(&h->base, &h->pool, &h->trees.at[i], ids, cluster->count,
-                                       error);
+    return h->deferred.count > 0 ? accel_octree_validate_lazy(&h->lazy, &h->deferred.at[i], ids,
+                                                              cluster->count, error)
+                                 : accel_octree_validate(&h->base, &h->pool, &h->trees.at[i], ids,
+                                                         cluster->count, error);
 }
 
 /* Every bounded id is in exactly one cluster, and every octree is right. */
@@ -321,9 +322,9 @@ static bool validate(const accel *a, accel_error *error)
 static void release(accel *a)
 {
     struct hoo_kind *h = (struct hoo_kind *)a;
-    for (size_t i = 0; i < h->later.count; i++)
-        accel_octree_free_parts(&h->lazy, &h->later.at[i]);
-    array_free(&a->memory, &h->later);
+    for (size_t i = 0; i < h->deferred.count; i++)
+        accel_octree_free_parts(&h->lazy, &h->deferred.at[i]);
+    array_free(&a->memory, &h->deferred);
     accel_cluster_free(&a->memory, &h->clustering);
     accel_octree_pool_free(&a->memory, &h->pool);
     array_free(&a->memory, &h->trees);

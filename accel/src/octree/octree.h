@@ -21,7 +21,7 @@
 #include "../core/kind.h"
 #include "../primitive/query.h"
 
-struct octree_later;
+struct octree_deferred;
 
 /* Cells deeper than this are not split, so a walk's stack is at most OCTREE_MAX_DEPTH levels. At
  * depth 40 a cell's side is 1e-12 of the root's. */
@@ -47,9 +47,9 @@ struct octree_node {
 
 /* The parts of one or many octrees. */
 struct octree_pool {
-    size_t nodes, leaves;                /* how many there are */
-    ARRAY_OF(uint32_t) later_ids;        /* what meets `later`, one run after the other */
-    ARRAY_OF(struct octree_later) later; /* none unless lazy: see octree_later.h */
+    size_t nodes, leaves;                      /* how many there are */
+    ARRAY_OF(uint32_t) deferred_ids;           /* what meets `later`, one run after the other */
+    ARRAY_OF(struct octree_deferred) deferred; /* none unless lazy: see octree_deferred.h */
     ARRAY_OF(uint32_t) refs;
     ARRAY_OF(uint64_t) words; /* the inner nodes, each as many words as it needs */
 };

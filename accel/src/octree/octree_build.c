@@ -10,12 +10,12 @@
  * to lower the cost, as one split alone rarely pays.
  *
  * A split that lowers the predicted cost is never taken back: no subtree costs more than the leaf
- * that it replaced. So a cell below none but such splits can be left for later (octree_later.h) and
- * is in the end what it would have been.
+ * that it replaced. So a cell below none but such splits can be left for later (octree_deferred.h)
+ * and is in the end what it would have been.
  */
 #include "octree.h"
 
-#include "octree_later.h"
+#include "octree_deferred.h"
 
 #include <string.h>
 
@@ -37,7 +37,7 @@ enum { LOOKAHEAD = 1 };
 
 /* A large part is grown down to cells of this share of its primitives: a few levels, so that its
  * first ray pays for those only and the others do not go from part to part at every step. */
-enum { SHARE_FOR_LATER = 64 };
+enum { SHARE_FOR_DEFERRED = 64 };
 
 /* Primitives looked at between two chances to report progress, and those that could be looked at in
  * the time that a leaf takes. */
@@ -55,7 +55,7 @@ struct grower {
     uint8_t children_in[64]; /* by halves */
     uint64_t one_each[64];   /* by halves: 1 in the byte of each child */
     double done, from, to;   /* volume finished, as a share of the root; progress range */
-    uint32_t later;          /* cells of no more primitives are left for later; 0: none is */
+    uint32_t deferred;       /* cells of no more primitives are left for later; 0: none is */
     const accel_box *tree;   /* the tree's root, if cells are left for later */
     uint32_t depth;          /* deepest leaf so far */
     bool refused;            /* did a cell stay whole for want of budget? */
@@ -267,20 +267,20 @@ static uint32_t count_owned(const struct grower *g, const struct task *t)
     return owned;
 }
 
-static bool leave_for_later(struct grower *g, const struct task *t, struct octree_cell *cell)
+static bool defer(struct grower *g, const struct task *t, struct octree_cell *cell)
 {
     struct memory *m = &g->build->a->memory;
     struct octree_pool *p = g->pool;
-    const size_t number = p->later.count, first = p->later_ids.count;
-    if (!array_extend(m, &p->later, 1) || !array_extend(m, &p->later_ids, t->count))
+    const size_t number = p->deferred.count, first = p->deferred_ids.count;
+    if (!array_extend(m, &p->deferred, 1) || !array_extend(m, &p->deferred_ids, t->count))
         return accel_build_no_memory(g->build);
-    memcpy(p->later_ids.at + first, g->stack.at + t->begin, t->count * sizeof(uint32_t));
-    p->later.at[number] = (struct octree_later){.box = t->box,
-                                                .count = t->count,
-                                                .owned = count_owned(g, t),
-                                                .depth = t->depth,
-                                                .failed = t->failed,
-                                                .budget = t->budget};
+    memcpy(p->deferred_ids.at + first, g->stack.at + t->begin, t->count * sizeof(uint32_t));
+    p->deferred.at[number] = (struct octree_deferred){.box = t->box,
+                                                      .count = t->count,
+                                                      .owned = count_owned(g, t),
+                                                      .depth = t->depth,
+                                                      .failed = t->failed,
+                                                      .budget = t->budget};
     *cell = (struct octree_cell){(uint32_t)number, OCTREE_LATER};
     return tick(g, t->count);
 }
@@ -394,8 +394,8 @@ static bool grow(struct grower *g, struct task *t, struct octree_cell *cell, dou
     *cost = leaf_cost(g, t->count);
     if (small_enough(g, t))
         return make_leaf(g, t, cell);
-    if (t->sure && t->count <= g->later)
-        return leave_for_later(g, t, cell);
+    if (t->sure && t->count <= g->deferred)
+        return defer(g, t, cell);
     if (!try_split(g, t, &s))
         return false;
     if (!may_split(g, t, &s))
@@ -477,15 +477,15 @@ bool accel_octree_build(struct build *build, struct octree_pool *pool, struct oc
 }
 
 /* Cells of no more primitives are left for later in a part of `count`. */
-static uint32_t size_for_later(uint32_t count, uint32_t whole)
+static uint32_t size_for_deferred(uint32_t count, uint32_t whole)
 {
     if (count <= whole)
         return 0;
-    return whole > count / SHARE_FOR_LATER ? whole : count / SHARE_FOR_LATER;
+    return whole > count / SHARE_FOR_DEFERRED ? whole : count / SHARE_FOR_DEFERRED;
 }
 
 bool accel_octree_grow_part(struct build *build, struct octree_pool *pool, struct octree_cell *root,
-                            const struct octree_lazy *lazy, const struct octree_later *part,
+                            const struct octree_lazy *lazy, const struct octree_deferred *part,
                             const accel_box *tree, bool *refused)
 {
     struct grower g = grower_of(build, pool, lazy->rule);
@@ -495,21 +495,21 @@ bool accel_octree_grow_part(struct build *build, struct octree_pool *pool, struc
                         .failed = part->failed,
                         .budget = part->budget,
                         .sure = true};
-    g.later = size_for_later(part->count, lazy->whole);
+    g.deferred = size_for_deferred(part->count, lazy->whole);
     g.tree = tree;
     const bool fine = grow_all(&g, &task, part->ids, root);
     *refused = g.refused && !isnan(lazy->rule.depth);
     return fine;
 }
 
-struct octree_later accel_octree_for_later(const uint32_t *ids, size_t count, const accel_box *box,
-                                           struct octree_rule rule)
+struct octree_deferred accel_octree_defer(const uint32_t *ids, size_t count, const accel_box *box,
+                                          struct octree_rule rule)
 {
-    return (struct octree_later){.box = *box,
-                                 .ids = ids,
-                                 .count = (uint32_t)count,
-                                 .owned = (uint32_t)count,
-                                 .budget = budget_of(rule, count)};
+    return (struct octree_deferred){.box = *box,
+                                    .ids = ids,
+                                    .count = (uint32_t)count,
+                                    .owned = (uint32_t)count,
+                                    .budget = budget_of(rule, count)};
 }
 
 void accel_octree_note_refused(accel_info *info)
@@ -531,6 +531,6 @@ void accel_octree_pool_free(struct memory *m, struct octree_pool *pool)
 {
     array_free(m, &pool->words);
     array_free(m, &pool->refs);
-    array_free(m, &pool->later);
-    array_free(m, &pool->later_ids);
+    array_free(m, &pool->deferred);
+    array_free(m, &pool->deferred_ids);
 }

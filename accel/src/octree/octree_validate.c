@@ -4,7 +4,7 @@
  * primitive down to the cells that its box meets and compares what arrives with what is listed,
  * also where the cells below are not built yet.
  */
-#include "octree_later.h"
+#include "octree_deferred.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -83,9 +83,9 @@ static bool check_layout(const struct checker *c, const struct octree_part *part
     const struct octree_pool *p = &part->pool;
     uintptr_t at = (uintptr_t)(part + 1), end = (uintptr_t)part + part->bytes;
     return (end >= at && follows(p->words.at, p->words.count, sizeof *p->words.at, &at, end) &&
-            follows(p->later.at, p->later.count, sizeof *p->later.at, &at, end) &&
+            follows(p->deferred.at, p->deferred.count, sizeof *p->deferred.at, &at, end) &&
             follows(p->refs.at, p->refs.count, sizeof *p->refs.at, &at, end) &&
-            follows(p->later_ids.at, p->later_ids.count, sizeof(uint32_t), &at, end) &&
+            follows(p->deferred_ids.at, p->deferred_ids.count, sizeof(uint32_t), &at, end) &&
             at == end) ||
            broken(c, "the arrays of a part do not fill its block, bytes:", (uint32_t)part->bytes);
 }
@@ -95,40 +95,41 @@ static bool check_runs(const struct checker *c)
 {
     const struct octree_pool *p = c->pool;
     size_t at = 0;
-    for (size_t i = 0; i < p->later.count; at += p->later.at[i++].count)
-        if (p->later.at[i].ids != p->later_ids.at + at ||
-            p->later.at[i].count > p->later_ids.count - at)
+    for (size_t i = 0; i < p->deferred.count; at += p->deferred.at[i++].count)
+        if (p->deferred.at[i].ids != p->deferred_ids.at + at ||
+            p->deferred.at[i].count > p->deferred_ids.count - at)
             return broken(c, "its ids are not where they should be, part", (uint32_t)i);
     return true;
 }
 
 /* A part, if it is built. */
-static bool check_part(const struct checker *c, const struct octree_later *later)
+static bool check_part(const struct checker *c, const struct octree_deferred *deferred)
 {
     const struct octree_part *part;
-    if (!accel_octree_part_is_sound(later, &part))
+    if (!accel_octree_part_is_sound(deferred, &part))
         return broken(c, "overwritten since it was built, what leads to a part at depth",
-                      later->depth);
+                      deferred->depth);
     if (!part)
         return true;
-    const struct checker below = {c->a, &part->pool, part->depth, later->budget, c->error};
+    const struct checker below = {c->a, &part->pool, part->depth, deferred->budget, c->error};
     return check_layout(&below, part) && check_runs(&below) &&
-           check_cell(&below, &part->root, &later->box, later->ids, later->count, later->depth);
+           check_cell(&below, &part->root, &deferred->box, deferred->ids, deferred->count,
+                      deferred->depth);
 }
 
-static bool check_later(const struct checker *c, const struct octree_cell *cell,
-                        const accel_box *box, const uint32_t *ids, size_t count, uint32_t depth)
+static bool check_deferred(const struct checker *c, const struct octree_cell *cell,
+                           const accel_box *box, const uint32_t *ids, size_t count, uint32_t depth)
 {
-    if (cell->first >= c->pool->later.count)
+    if (cell->first >= c->pool->deferred.count)
         return broken(c, "a cell names a part that does not exist,", cell->first);
-    const struct octree_later *later = &c->pool->later.at[cell->first];
-    if (memcmp(&later->box, box, sizeof *box) != 0 || later->depth != depth)
+    const struct octree_deferred *deferred = &c->pool->deferred.at[cell->first];
+    if (memcmp(&deferred->box, box, sizeof *box) != 0 || deferred->depth != depth)
         return broken(c, "a part is not where its cell is, part", cell->first);
-    if (later->count != count || memcmp(later->ids, ids, count * sizeof *ids) != 0)
+    if (deferred->count != count || memcmp(deferred->ids, ids, count * sizeof *ids) != 0)
         return broken(c, "a part does not list what its cell meets, part", cell->first);
-    if (later->owned > count || !(later->budget >= 0.0 && later->budget <= c->budget))
+    if (deferred->owned > count || !(deferred->budget >= 0.0 && deferred->budget <= c->budget))
         return broken(c, "what is known of it is wrong, part", cell->first);
-    return check_part(c, later);
+    return check_part(c, deferred);
 }
 
 static bool check_cell(const struct checker *c, const struct octree_cell *cell,
@@ -137,7 +138,7 @@ static bool check_cell(const struct checker *c, const struct octree_cell *cell,
     if (depth > OCTREE_MAX_DEPTH)
         return broken(c, "a cell lies too deep, at", depth);
     if (cell->count == OCTREE_LATER)
-        return check_later(c, cell, box, ids, count, depth);
+        return check_deferred(c, cell, box, ids, count, depth);
     if (cell->count > 0)
         return check_leaf(c, cell, ids, count, depth);
     if ((uint64_t)cell->first + octree_words(0) > c->pool->words.count)
@@ -173,10 +174,10 @@ bool accel_octree_validate(const accel *a, const struct octree_pool *pool,
            check_cell(&c, &tree->root, &tree->box, ids, count, 0);
 }
 
-bool accel_octree_validate_lazy(const struct octree_lazy *lazy, const struct octree_later *tree,
+bool accel_octree_validate_lazy(const struct octree_lazy *lazy, const struct octree_deferred *tree,
                                 const uint32_t *ids, size_t count, accel_error *error)
 {
-    const struct octree_later want = accel_octree_for_later(ids, count, &tree->box, lazy->rule);
+    const struct octree_deferred want = accel_octree_defer(ids, count, &tree->box, lazy->rule);
     const struct checker c = {.a = lazy->a, .error = error};
     if (tree->ids != want.ids || tree->count != want.count || tree->owned != want.owned ||
         tree->depth != want.depth || tree->failed != want.failed || tree->budget != want.budget)

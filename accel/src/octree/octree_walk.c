@@ -13,7 +13,7 @@
  * and nothing is grown: the proof there holds for any set of near and far planes, so for cells too.
  * Other rays are tested by S itself.
  */
-#include "octree_later.h"
+#include "octree_deferred.h"
 #include "../primitive/pair.h"
 
 /* One level of the walk. Children in the order of the ray: place i is child i ^ sign. Near and far
@@ -118,12 +118,12 @@ struct growing {
 /* Goes into a part: *cell becomes its root, *pool what that lies in. False: there is no memory to
  * build it, and it has been tested as a list. */
 static inline bool enter_part(const struct growing *growing, struct query *q,
-                              struct octree_later *later, const struct octree_cell **cell,
+                              struct octree_deferred *deferred, const struct octree_cell **cell,
                               const struct octree_pool **pool)
 {
-    const struct octree_part *part = octree_enter(growing->lazy, later, growing->tree);
+    const struct octree_part *part = octree_enter(growing->lazy, deferred, growing->tree);
     if (!part) {
-        accel_query_test_list(q, later->ids, later->count);
+        accel_query_test_list(q, deferred->ids, deferred->count);
         return false;
     }
     *cell = &part->root;
@@ -157,7 +157,7 @@ __attribute__((always_inline)) static inline void walk_nodes(const struct octree
         if (growing) {
             pool = top->pool;
             if (cell->count == OCTREE_LATER &&
-                !enter_part(growing, q, &pool->later.at[cell->first], &cell, &pool)) {
+                !enter_part(growing, q, &pool->deferred.at[cell->first], &cell, &pool)) {
                 if (query_done(q))
                     return;
                 continue;
@@ -216,7 +216,7 @@ walk_as(const struct octree_pool *pool, const struct octree *tree, struct query 
 }
 
 __attribute__((always_inline)) static inline void walk_lazy_as(const struct octree_lazy *lazy,
-                                                               struct octree_later *tree,
+                                                               struct octree_deferred *tree,
                                                                struct query *q, bool common)
 {
     const struct growing growing = {lazy, &tree->box};
@@ -240,7 +240,7 @@ void accel_octree_walk(const struct octree_pool *pool, const struct octree *tree
         walk_as(pool, tree, q, false);
 }
 
-void accel_octree_walk_lazy(const struct octree_lazy *lazy, struct octree_later *tree,
+void accel_octree_walk_lazy(const struct octree_lazy *lazy, struct octree_deferred *tree,
                             struct query *q)
 {
     if (query_common(q))

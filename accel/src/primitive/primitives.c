@@ -385,11 +385,11 @@ void accel_primitives_leave(struct memory *m, struct primitives *p)
     for (uint32_t g = 0; g < p->geometry_count; g++)
         free_data(m, &p->geometry[g]);
     accel_memory_resize(m, p->box, p->count * sizeof *p->box, 0);
-    accel_memory_resize(m, p->bounded.at, p->bounded.room * sizeof *p->bounded.at, 0);
+    accel_memory_resize(m, p->bounded.at, p->bounded.capacity * sizeof *p->bounded.at, 0);
     p->left = true;
     p->box = NULL;
     p->bounded.at = NULL;
-    p->bounded.room = 0;
+    p->bounded.capacity = 0;
 }
 
 void accel_primitives_free(struct memory *m, struct primitives *p)

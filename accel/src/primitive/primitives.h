@@ -17,8 +17,8 @@ struct build;
 
 /* A list of ids. */
 struct ids {
-    uint32_t *at;       /* count of them */
-    size_t count, room; /* an array of memory.h */
+    uint32_t *at;           /* count of them */
+    size_t count, capacity; /* an array of memory.h */
 };
 
 /* One geometry. A triangle is 9 doubles (three vertices), a sphere 4 (centre, radius). */

@@ -57,7 +57,7 @@ static bool keep(struct query *q, const struct found *hit)
         return false;
     if (q->pile && hit->key != q->last.key)
         return false;
-    const bool full = q->count == q->room;
+    const bool full = q->count == q->capacity;
     if (full && !before(hit->key, hit->id, &q->found[q->order[q->count - 1]]))
         return false;
     const uint32_t at = place_of(q, hit);
@@ -69,7 +69,7 @@ static bool keep(struct query *q, const struct found *hit)
     q->found[to] = *hit;
     if (q->any)
         q->limit = -(double)INFINITY;
-    else if (q->count == q->room)
+    else if (q->count == q->capacity)
         set_limit(q, &q->found[q->order[q->count - 1]]);
     return true;
 }

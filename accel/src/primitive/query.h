@@ -54,30 +54,30 @@ struct found {
 
 struct query {
     const struct primitives *prims;
-    double org[3], dir[3]; /* the ray */
-    double inv[3];         /* 1 / dir, 0 where dir is 0: see query_inverse */
-    double tmin, tmax;     /* the caller's, exclusive */
-    double begin;          /* no key below matters: tmin, or that of `last` */
-    uint32_t parallel;     /* bit k: dir[k] is 0 */
-    uint32_t sign;         /* bit k: dir[k] is negative (and not 0) */
-    uint8_t near[3];       /* index of the near plane of axis k in a box's six doubles */
-    uint8_t axis[3];       /* the shear test's kx, ky, kz: kz is the largest of |dir| */
-    bool point;            /* a point query */
-    bool batch;            /* an all query's second or later walk: only hits after `last` */
-    double shear[3];       /* dir[kx] / dir[kz], dir[ky] / dir[kz], 1 / dir[kz] */
-    uint32_t skip;         /* id that the ray leaves, or ACCEL_NONE */
-    double limit;          /* a hit with a greater key cannot matter */
-    struct found *found;   /* the first hits so far */
-    uint16_t *order;       /* their places, by (key, id) */
-    uint32_t count, room;  /* of them; there is room for */
-    bool any;              /* the first hit ends the query */
-    struct found last;     /* of the batch before: the order goes on after it */
-    bool pile;             /* only hits with the key of `last` are gathered */
-    uint32_t end;          /* of a pile: ids from here on cannot matter */
-    accel_query *caller;   /* the caller's, or NULL */
-    const accel_ray *ray;  /* the caller's ray as the callbacks see it */
-    uint64_t nodes, tests; /* visited and tested so far */
-    uint64_t outside;      /* raw hits before their box */
+    double org[3], dir[3];    /* the ray */
+    double inv[3];            /* 1 / dir, 0 where dir is 0: see query_inverse */
+    double tmin, tmax;        /* the caller's, exclusive */
+    double begin;             /* no key below matters: tmin, or that of `last` */
+    uint32_t parallel;        /* bit k: dir[k] is 0 */
+    uint32_t sign;            /* bit k: dir[k] is negative (and not 0) */
+    uint8_t near[3];          /* index of the near plane of axis k in a box's six doubles */
+    uint8_t axis[3];          /* the shear test's kx, ky, kz: kz is the largest of |dir| */
+    bool point;               /* a point query */
+    bool batch;               /* an all query's second or later walk: only hits after `last` */
+    double shear[3];          /* dir[kx] / dir[kz], dir[ky] / dir[kz], 1 / dir[kz] */
+    uint32_t skip;            /* id that the ray leaves, or ACCEL_NONE */
+    double limit;             /* a hit with a greater key cannot matter */
+    struct found *found;      /* the first hits so far */
+    uint16_t *order;          /* their places, by (key, id) */
+    uint32_t count, capacity; /* of them; there is room for */
+    bool any;                 /* the first hit ends the query */
+    struct found last;        /* of the batch before: the order goes on after it */
+    bool pile;                /* only hits with the key of `last` are gathered */
+    uint32_t end;             /* of a pile: ids from here on cannot matter */
+    accel_query *caller;      /* the caller's, or NULL */
+    const accel_ray *ray;     /* the caller's ray as the callbacks see it */
+    uint64_t nodes, tests;    /* visited and tested so far */
+    uint64_t outside;         /* raw hits before their box */
     uint32_t mailbox[QUERY_MAILBOXES]; /* ids tested lately */
 };
 

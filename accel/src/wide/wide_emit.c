@@ -331,10 +331,10 @@ static size_t room_for(struct emitter *e, uint32_t place)
         return top->count * (sizeof(struct wide_block) + 16 + 76);
     collect(e, place + 1, top->left_of_all, &c);
     collect(e, top->right, WIDE - top->left_of_all, &c);
-    size_t room = sizeof(struct wide_node) + 64;
+    size_t capacity = sizeof(struct wide_node) + 64;
     for (uint32_t i = 0; i < c.count; i++)
-        room += room_for(e, c.place[i]);
-    return room;
+        capacity += room_for(e, c.place[i]);
+    return capacity;
 }
 
 static unsigned char *align(void *memory)
@@ -374,8 +374,8 @@ bool accel_wide_emit(struct build *build, struct wide *w, struct wide_rule rule,
                      const struct wide_binary_tree *tree)
 {
     struct emitter e = {.build = build, .w = w, .rule = rule, .tree = tree};
-    const size_t room = room_for(&e, 0) + TAIL;
-    if (e.stopped || !allocate(&e, room) || !emit(&e, 0, 0, &w->root))
+    const size_t capacity = room_for(&e, 0) + TAIL;
+    if (e.stopped || !allocate(&e, capacity) || !emit(&e, 0, 0, &w->root))
         return false;
     trim(&e);
     w->used = e.used;

@@ -29,12 +29,12 @@ struct request {
 
 static void write_flags(struct writer *w)
 {
-    static const char *const flags[] = {" no_shadow",  " no_image",         " no_reflection",
-                                        " hollow",     " interior { ior 1.3 }",
-                                        " double_illuminate"};
+    static const char *const flags[] = {
+        " no_shadow",        " no_image", " no_reflection", " hollow", " interior { ior 1.3 }",
+        " double_illuminate"};
 
     for (size_t i = 0; i < sizeof flags / sizeof flags[0]; i++) {
-        if (dice_chance(&w->dice, i == 4 ? 0.15 : 0.05)) {
+        if (rng_chance(&w->rng, i == 4 ? 0.15 : 0.05)) {
             write_text(w, "%s", flags[i]);
         }
     }
@@ -43,8 +43,8 @@ static void write_flags(struct writer *w)
 static void write_texture(struct writer *w)
 {
     write_pattern(w, " pigment { rgb @c transmit 0.65 } finish { ambient 0 emission 0.3");
-    write_text(w, dice_chance(&w->dice, 0.3) ? " diffuse 0.4" : " diffuse 0");
-    write_text(w, dice_chance(&w->dice, 0.05) ? " reflection 0.2 }" : " }");
+    write_text(w, rng_chance(&w->rng, 0.3) ? " diffuse 0.4" : " diffuse 0");
+    write_text(w, rng_chance(&w->rng, 0.05) ? " reflection 0.2 }" : " }");
 }
 
 /* Objects that send photons on; only where the world has photons at all. */
@@ -66,7 +66,7 @@ enum form { PLAIN, COPIES, LAMPS, LAMP_IN_UNION, LIGHT_GROUP, TARGET };
 
 static enum form draw_form(struct writer *w, const struct world *world)
 {
-    const double kind = dice_unit(&w->dice);
+    const double kind = rng_unit(&w->rng);
 
     if (world->dark) {
         return kind < 0.75 ? PLAIN : COPIES;
@@ -133,7 +133,7 @@ static int write_object(struct writer *w, const struct world *world, int number,
                         struct placement *p)
 {
     const enum form form = draw_form(w, world);
-    const int depth = (int)dice_below(&w->dice, DEPTH + 1);
+    const int depth = (int)rng_below(&w->rng, DEPTH + 1);
 
     write_text(w, "// object %d, %s\n", number, shapes[wanted].name);
     if (form == COPIES) {
@@ -173,8 +173,8 @@ static void write_cameras(struct writer *w, const struct world *world, const str
     double from[3], to[3], aside[3];
 
     for (int i = 0; i < 3; i++) {
-        from[i] = world->offset[i] + s * dice_range(&w->dice, -3.0, 3.0);
-        to[i] = world->offset[i] + s * dice_range(&w->dice, -2.0, 2.0);
+        from[i] = world->offset[i] + s * rng_range(&w->rng, -3.0, 3.0);
+        to[i] = world->offset[i] + s * rng_range(&w->rng, -2.0, 2.0);
         aside[i] = world->offset[i] - (i == 2 ? 8.0 * s : 0.0);
     }
     write_rays(w, rays);
@@ -193,12 +193,13 @@ static void write_head(struct writer *w, const struct world *world, const struct
 {
     double light[3];
 
-    write_text(w, "#version 3.7;\nglobal_settings { assumed_gamma 1 max_trace_level 12 "
-                  "adc_bailout 0.03%s }\nbackground { rgb <0.1, 0.2, 0.3> }\n",
+    write_text(w,
+               "#version 3.7;\nglobal_settings { assumed_gamma 1 max_trace_level 12 "
+               "adc_bailout 0.03%s }\nbackground { rgb <0.1, 0.2, 0.3> }\n",
                world->photons ? " photons { count 500 autostop 0 }" : "");
     write_cameras(w, world, rays);
     for (int i = 0; i < 3; i++) {
-        light[i] = world->offset[i] + 9.0 * world->scale * dice_range(&w->dice, -1.0, 1.0);
+        light[i] = world->offset[i] + 9.0 * world->scale * rng_range(&w->rng, -1.0, 1.0);
     }
     if (!world->dark) {
         write_text(w, "light_source { ");
@@ -207,12 +208,12 @@ static void write_head(struct writer *w, const struct world *world, const struct
     }
 }
 
-/* Writes object number `number`, or without a file finds its place alone. Returns as write_object. */
+/* Writes object number `number`, or without a file finds its place alone. Returns as write_object.
+ */
 static int draw_object(FILE *out, const struct request *request, const struct world *world,
                        int number, struct placement *p)
 {
-    struct writer w = {out, dice_from(request->seed, (uint64_t)number + 1), BUDGET,
-                       world->dark};
+    struct writer w = {out, rng_from(request->seed, (uint64_t)number + 1), BUDGET, world->dark};
     /* Shapes take turns over the seeds as well. */
     const uint64_t turn = request->seed * (uint64_t)request->count + (uint64_t)number;
     const int wanted = request->type >= 0 ? request->type : (int)(turn % (uint64_t)shape_count);
@@ -223,15 +224,15 @@ static int draw_object(FILE *out, const struct request *request, const struct wo
 static bool write_scene(FILE *out, const struct request *request)
 {
     const struct world world = draw_world(request->seed);
-    struct writer head = {out, dice_from(request->seed, RAYS_STREAM), 0, world.dark};
+    struct writer head = {out, rng_from(request->seed, RAYS_STREAM), 0, world.dark};
     struct ray_list rays = {NULL, 0, 0};
     struct placement p = {{{0}}};
     int unbounded = 0;
 
     for (int i = 0; i < request->count; i++) {
-        struct dice dice = dice_from(request->seed, RAYS_STREAM + (uint64_t)i + 1);
+        struct rng rng = rng_from(request->seed, RAYS_STREAM + (uint64_t)i + 1);
         draw_object(NULL, request, &world, i, &p);
-        if (!add_rays(&rays, &dice, &p, request->rays)) {
+        if (!add_rays(&rays, &rng, &p, request->rays)) {
             return false;
         }
     }

@@ -8,12 +8,12 @@
 
 static int draw_count(struct writer *w, int least, int most)
 {
-    return least + (int)dice_below(&w->dice, (uint32_t)(most - least + 1));
+    return least + (int)rng_below(&w->rng, (uint32_t)(most - least + 1));
 }
 
 static const char *pick(struct writer *w, const char *const *texts, int count)
 {
-    return texts[dice_below(&w->dice, (uint32_t)count)];
+    return texts[rng_below(&w->rng, (uint32_t)count)];
 }
 
 #define PICK(w, texts) pick(w, texts, (int)(sizeof(texts) / sizeof(texts)[0]))
@@ -43,10 +43,10 @@ static void vector_cross(const double a[3], const double b[3], double c[3])
 /* The corners of a closed curve: a star, or anything. */
 static void draw_contour(struct writer *w, int count, double at[][2])
 {
-    const bool star = dice_chance(&w->dice, 0.6);
+    const bool star = rng_chance(&w->rng, 0.6);
 
     for (int i = 0; i < count; i++) {
-        const double r = dice_range(&w->dice, 0.2, 1.0);
+        const double r = rng_range(&w->rng, 0.2, 1.0);
         const double turn = 6.283185307 * i / count;
         at[i][0] = star ? r * cos(turn) : draw_number(w, -0.9, 0.9);
         at[i][1] = star ? r * sin(turn) : draw_number(w, -0.9, 0.9);
@@ -72,7 +72,7 @@ void write_prism(struct writer *w)
 {
     static const char *const splines[] = {"linear", "quadratic", "cubic", "bezier"};
     const char *spline = PICK(w, splines);
-    const bool conic = dice_chance(&w->dice, 0.35);
+    const bool conic = rng_chance(&w->rng, 0.35);
     const bool bezier = spline[0] == 'b', before = spline[0] == 'q' || spline[0] == 'c';
     const bool after = spline[0] == 'c';
     const int contours = draw_count(w, 1, 2), count = draw_count(w, 4, 8);
@@ -80,7 +80,7 @@ void write_prism(struct writer *w)
     double at[8][2], control[1][2];
 
     write_text(w, "prism { %s_spline %s_sweep %.9g, %.9g, %d", spline, conic ? "conic" : "linear",
-               low, low + 0.2 + dice_unit(&w->dice),
+               low, low + 0.2 + rng_unit(&w->rng),
                contours * (bezier ? 4 * count : count + 1 + before + after));
     for (int k = 0; k < contours; k++) {
         draw_contour(w, count, at);
@@ -101,7 +101,7 @@ void write_lathe(struct writer *w)
 {
     static const char *const splines[] = {"linear", "quadratic", "cubic", "bezier"};
     const char *spline = PICK(w, splines);
-    const bool bezier = spline[0] == 'b', sorted = dice_chance(&w->dice, 0.5);
+    const bool bezier = spline[0] == 'b', sorted = rng_chance(&w->rng, 0.5);
     const int count = bezier ? 4 * draw_count(w, 1, 3) : draw_count(w, 4, 8);
 
     write_text(w, "lathe { %s_spline %d", spline, count);
@@ -123,7 +123,7 @@ void write_sor(struct writer *w)
     for (int i = 0; i < count; i++) {
         const double at[2] = {draw_number(w, 0.0, 1.0), height};
         write_pair(w, at);
-        height += dice_range(&w->dice, 0.05, 0.5);
+        height += rng_range(&w->rng, 0.05, 0.5);
     }
     write_pattern(w, " [open]");
 }
@@ -133,7 +133,7 @@ void write_sphere_sweep(struct writer *w)
     static const char *const splines[] = {"linear_spline", "cubic_spline", "b_spline"};
     const char *spline = PICK(w, splines);
     const int count = draw_count(w, spline[0] == 'l' ? 2 : 4, 7);
-    const bool loop = dice_chance(&w->dice, 0.2);
+    const bool loop = rng_chance(&w->rng, 0.2);
 
     write_text(w, "sphere_sweep { %s %d", spline, count);
     for (int i = 0; i < count; i++) {
@@ -147,7 +147,7 @@ void write_sphere_sweep(struct writer *w)
 void write_polygon(struct writer *w)
 {
     const int contours = draw_count(w, 1, 2), count = draw_count(w, 3, 7);
-    const bool flat = dice_chance(&w->dice, 0.5);
+    const bool flat = rng_chance(&w->rng, 0.5);
     double at[7][2];
 
     write_text(w, "polygon { %d", contours * (count + 1));
@@ -227,7 +227,7 @@ void write_mesh(struct writer *w)
 
     write_text(w, "mesh { ");
     for (int i = 0; i < count; i++) {
-        write_corners(w, dice_chance(&w->dice, 0.3));
+        write_corners(w, rng_chance(&w->rng, 0.3));
         write_text(w, " } ");
     }
 }
@@ -273,7 +273,7 @@ void write_mesh2(struct writer *w)
         write_vector(w, corner[i]);
     }
     write_text(w, " } ");
-    if (dice_chance(&w->dice, 0.3)) {
+    if (rng_chance(&w->rng, 0.3)) {
         write_text(w, "normal_vectors { 6, x, -x, y, -y, z, -z } ");
     }
     write_text(w, "face_indices { 8");
@@ -289,7 +289,7 @@ void write_ovus(struct writer *w)
 {
     const double bottom = draw_number(w, 0.2, 0.7);
 
-    write_text(w, "ovus { %.9g, %.9g", bottom, bottom * dice_range(&w->dice, 0.1, 1.95));
+    write_text(w, "ovus { %.9g, %.9g", bottom, bottom * rng_range(&w->rng, 0.1, 1.95));
 }
 
 static void write_components(struct writer *w, bool negative)
@@ -297,11 +297,11 @@ static void write_components(struct writer *w, bool negative)
     const int count = draw_count(w, 1, 5);
 
     for (int i = 0; i < count; i++) {
-        const bool less = dice_chance(&w->dice, 0.3) != (negative && i == 0);
+        const bool less = rng_chance(&w->rng, 0.3) != (negative && i == 0);
         write_text(w, " ");
-        write_pattern(w, dice_chance(&w->dice, 0.5) ? "sphere { @p, 1.2 * @r, "
-                                                    : "cylinder { @p, @o, 0.8 * @r, ");
-        write_number(w, dice_range(&w->dice, 0.4, 2.0) * (less ? -1.0 : 1.0));
+        write_pattern(w, rng_chance(&w->rng, 0.5) ? "sphere { @p, 1.2 * @r, "
+                                                  : "cylinder { @p, @o, 0.8 * @r, ");
+        write_number(w, rng_range(&w->rng, 0.4, 2.0) * (less ? -1.0 : 1.0));
         write_pattern(w, " [scale <1, 0.5 + @u, 1.3>] [rotate @a] [translate @p / 2] }");
     }
 }
@@ -322,11 +322,11 @@ void write_blob_negative(struct writer *w)
 /* Of all kinds: terms are often 0, and often cancel. */
 void write_quadric(struct writer *w)
 {
-    const bool mixed = dice_chance(&w->dice, 0.3);
+    const bool mixed = rng_chance(&w->rng, 0.3);
 
     write_text(w, "quadric { ");
     for (int i = 0; i < 9; i++) {
-        const double x = draw_number(w, -2.0, 2.0), kind = dice_unit(&w->dice);
+        const double x = draw_number(w, -2.0, 2.0), kind = rng_unit(&w->rng);
         const bool zero = kind < 0.25 || (i / 3 == 1 && !mixed);
         const double term = zero ? 0.0 : kind < 0.5 ? (x < 0.0 ? -1.0 : 1.0) : x;
         write_text(w, i % 3 == 0 ? "<%.9g" : ", %.9g", term);
@@ -342,9 +342,9 @@ void write_poly(struct writer *w)
     const int terms = (order + 1) * (order + 2) * (order + 3) / 6;
     const char *name = order == 3 ? "cubic" : order == 4 ? "quartic" : "poly";
 
-    if (dice_chance(&w->dice, 0.3)) {
-        write_text(w, "polynomial { %d, xyz(%d, 0, 0): 1, xyz(0, %d, 0): 1, xyz(0, 0, %d): 1", order,
-                   order, order, order);
+    if (rng_chance(&w->rng, 0.3)) {
+        write_text(w, "polynomial { %d, xyz(%d, 0, 0): 1, xyz(0, %d, 0): 1, xyz(0, 0, %d): 1",
+                   order, order, order, order);
         write_pattern(w, ", xyz(1, 1, 0): @s, xyz(0, 0, 1): @s, xyz(0, 0, 0): @u - 1");
         return;
     }
@@ -355,7 +355,7 @@ void write_poly(struct writer *w)
     write_text(w, "<");
     for (int i = 0; i < terms; i++) {
         const double x = draw_number(w, -1.0, 1.0);
-        const bool zero = dice_chance(&w->dice, 0.6) && i < terms - 1;
+        const bool zero = rng_chance(&w->rng, 0.6) && i < terms - 1;
         write_text(w, i > 0 ? ", %.9g" : "%.9g", zero ? 0.0 : x);
     }
     write_text(w, ">");
@@ -374,18 +374,18 @@ void write_isosurface(struct writer *w)
 
     write_text(w, "isosurface { function { ");
     write_pattern(w, PICK(w, functions));
-    write_pattern(w, dice_chance(&w->dice, 0.5) ? " } contained_by { box { @p, @o } }"
-                                                : " } contained_by { sphere { @p, @r } }");
+    write_pattern(w, rng_chance(&w->rng, 0.5) ? " } contained_by { box { @p, @o } }"
+                                              : " } contained_by { sphere { @p, @r } }");
     write_text(w, " max_gradient %d", draw_count(w, 2, 9));
     write_pattern(w, " [open] [threshold @s / 4]");
-    write_pattern(w, dice_chance(&w->dice, 0.5) ? " [all_intersections]" : " [max_trace 3]");
+    write_pattern(w, rng_chance(&w->rng, 0.5) ? " [all_intersections]" : " [max_trace 3]");
 }
 
 void write_julia_fractal(struct writer *w)
 {
-    static const char *const kinds[] = {"quaternion sqr",    "quaternion cube",  "hypercomplex sqr",
-                                        "hypercomplex cube", "hypercomplex exp", "hypercomplex sin",
-                                        "hypercomplex pwr(2, 0)"};
+    static const char *const kinds[] = {
+        "quaternion sqr",   "quaternion cube",  "hypercomplex sqr",      "hypercomplex cube",
+        "hypercomplex exp", "hypercomplex sin", "hypercomplex pwr(2, 0)"};
     const int safe = 4, all = sizeof kinds / sizeof kinds[0];
     const char *kind = pick(w, kinds, w->dark ? all : safe);
 

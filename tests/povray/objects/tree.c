@@ -66,8 +66,9 @@ static bool kept_surface(const struct reach *parts, int count, bool within, bool
     for (int i = 0; i < count; i++) {
         bool bounded = inverted ? parts[i].inverted_surface : parts[i].surface;
         for (int j = 0; j < count; j++) {
-            bounded = bounded || (j != i && (within ? inside_is_bounded(&parts[j])
-                                                    : outside_is_bounded(&parts[j])));
+            bounded =
+                bounded ||
+                (j != i && (within ? inside_is_bounded(&parts[j]) : outside_is_bounded(&parts[j])));
         }
         if (!bounded) {
             return false;
@@ -118,18 +119,21 @@ int unbounded_objects(const struct reach *reach)
 static void write_transform(struct writer *w)
 {
     static const char *const transforms[] = {
-        " translate @p / 2", " rotate @a", " scale 0.5 + @u", " scale <0.4 + @u, 0.4 + @u, 0.4 + @u>",
+        " translate @p / 2",
+        " rotate @a",
+        " scale 0.5 + @u",
+        " scale <0.4 + @u, 0.4 + @u, 0.4 + @u>",
         " scale <-1, 1, 0.6 + @u>",
         " matrix <1, @s / 2, @s / 3, @s / 3, 1, @s / 2, 0, @s / 3, 1, @s / 4, 0, @s / 4>",
         " transform { rotate @a translate @p / 3 inverse }"};
 
-    write_pattern(w, transforms[dice_below(&w->dice, sizeof transforms / sizeof transforms[0])]);
+    write_pattern(w, transforms[rng_below(&w->rng, sizeof transforms / sizeof transforms[0])]);
 }
 
 static void write_clip(struct writer *w, struct reach *reach, int depth)
 {
-    const bool link = dice_chance(&w->dice, 0.1) && !reach->clipped && reach->bounded;
-    const int count = dice_chance(&w->dice, 0.2) ? 2 : 1;
+    const bool link = rng_chance(&w->rng, 0.1) && !reach->clipped && reach->bounded;
+    const int count = rng_chance(&w->rng, 0.2) ? 2 : 1;
 
     if (reach->linked) {
         return;
@@ -147,7 +151,7 @@ static void write_clip(struct writer *w, struct reach *reach, int depth)
         write_text(w, " } ");
         clip_reach(reach, &clip);
     }
-    if (dice_chance(&w->dice, 0.3)) {
+    if (rng_chance(&w->rng, 0.3)) {
         write_transform(w);
     }
     write_text(w, " }");
@@ -156,7 +160,7 @@ static void write_clip(struct writer *w, struct reach *reach, int depth)
 /* Mostly bounds that hold the object, sometimes ones that do not. */
 static void write_bound(struct writer *w, struct reach *reach, int depth)
 {
-    const double kind = dice_unit(&w->dice);
+    const double kind = rng_unit(&w->rng);
 
     if (reach->linked) {
         return;
@@ -176,11 +180,11 @@ static void write_bound(struct writer *w, struct reach *reach, int depth)
 
 void write_modifiers(struct writer *w, struct reach *reach, int depth)
 {
-    const uint32_t count = dice_below(&w->dice, 5);
+    const uint32_t count = rng_below(&w->rng, 5);
 
     depth = w->budget > 0 ? depth : 0;
     for (uint32_t i = 0; i < count; i++) {
-        const double kind = dice_unit(&w->dice);
+        const double kind = rng_unit(&w->rng);
         if (kind < 0.15) {
             write_text(w, " inverse");
             invert_reach(reach);
@@ -201,7 +205,7 @@ static int draw_shape(struct writer *w, bool plain)
     int which;
 
     do {
-        which = (int)dice_below(&w->dice, (uint32_t)shape_count);
+        which = (int)rng_below(&w->rng, (uint32_t)shape_count);
     } while (plain && (shapes[which].traits & SHAPE_PATCH));
     return which;
 }
@@ -218,7 +222,7 @@ static struct reach write_shape(struct writer *w, int which)
     if (shape->traits & SHAPE_STURM) {
         write_pattern(w, " [sturm]");
     }
-    if ((shape->traits & SHAPE_HIERARCHY) && dice_chance(&w->dice, 0.2)) {
+    if ((shape->traits & SHAPE_HIERARCHY) && rng_chance(&w->rng, 0.2)) {
         write_text(w, " hierarchy off");
     }
     w->budget--;
@@ -228,17 +232,17 @@ static struct reach write_shape(struct writer *w, int which)
 
 static void write_own_texture(struct writer *w, bool plain)
 {
-    if (!plain && dice_chance(&w->dice, 0.1)) {
+    if (!plain && rng_chance(&w->rng, 0.1)) {
         write_pattern(w, " pigment { rgb @c transmit 0.6 }");
     }
 }
 
 static struct reach write_csg(struct writer *w, int depth, int wanted, bool plain)
 {
-    const int operation = (int)dice_below(&w->dice, OPERATIONS);
+    const int operation = (int)rng_below(&w->rng, OPERATIONS);
     const int room = w->budget < PARTS ? w->budget : PARTS;
-    const int count = 1 + (int)dice_below(&w->dice, (uint32_t)room);
-    const int place = (int)dice_below(&w->dice, (uint32_t)count);
+    const int count = 1 + (int)rng_below(&w->rng, (uint32_t)room);
+    const int place = (int)rng_below(&w->rng, (uint32_t)count);
     struct reach parts[PARTS];
 
     write_text(w, "%s { ", operation_names[operation]);
@@ -258,7 +262,7 @@ static struct reach write_csg(struct writer *w, int depth, int wanted, bool plai
 
 struct reach write_tree(struct writer *w, int depth, int wanted, bool plain)
 {
-    const bool csg = depth > 0 && w->budget > 1 && dice_chance(&w->dice, 0.5);
+    const bool csg = depth > 0 && w->budget > 1 && rng_chance(&w->rng, 0.5);
     struct reach reach;
 
     if (csg) {

@@ -7,14 +7,14 @@
  * 1e6 and more, but within its MAX_DISTANCE of 1e7. */
 static const double scales[] = {1.0, 1e-3, 1e-2, 0.1, 10.0, 1e2, 1e3, 1e4, 1e5, 8e5};
 
-static double draw_decade(struct dice *d, int lo, int hi)
+static double draw_decade(struct rng *d, int lo, int hi)
 {
-    return scales[0] * pow(10.0, (double)lo + dice_below(d, (uint32_t)(hi - lo + 1)));
+    return scales[0] * pow(10.0, (double)lo + rng_below(d, (uint32_t)(hi - lo + 1)));
 }
 
 struct world draw_world(uint64_t seed)
 {
-    struct dice d = dice_from(seed, 0);
+    struct rng d = rng_from(seed, 0);
     const uint32_t count = sizeof scales / sizeof scales[0];
     const uint64_t which = seed % (count + 2);
     struct world world = {.mixed = which >= count};
@@ -25,10 +25,10 @@ struct world draw_world(uint64_t seed)
     world.dark = world.scale > 1e4 || seed % 4 == 2;
     world.photons = seed % 5 == 3 && !world.dark;
     /* Far away in half of the worlds, but not so far that rays end. */
-    const bool far = dice_chance(&d, 0.5) && world.scale <= 1e3;
+    const bool far = rng_chance(&d, 0.5) && world.scale <= 1e3;
     const double distance = far ? world.scale * draw_decade(&d, 0, 3) : 0.0;
     for (int i = 0; i < 3; i++) {
-        world.offset[i] = distance * dice_range(&d, -1.0, 1.0);
+        world.offset[i] = distance * rng_range(&d, -1.0, 1.0);
     }
     return world;
 }
@@ -88,36 +88,36 @@ static void write_matrix(struct writer *w, double m[4][3])
 
 struct placement write_placement(struct writer *w, const struct world *world)
 {
-    struct dice *d = &w->dice;
+    struct rng *d = &w->rng;
     const double scale = world->mixed ? draw_decade(d, -3, 4) : world->scale;
     const double reach = world->mixed ? 20.0 * scale : 4.0 * scale;
     double factor[3], degrees[3], at[3];
     struct placement p = identity();
 
-    if (dice_chance(d, 0.2)) { /* sheared */
+    if (rng_chance(d, 0.2)) { /* sheared */
         struct placement shear = identity();
         shear.matrix[1][0] = draw_number(w, -1.0, 1.0);
         shear.matrix[2][1] = draw_number(w, -1.0, 1.0);
         write_matrix(w, shear.matrix);
         apply(&p, shear.matrix);
     }
-    const bool uniform = dice_chance(d, 0.5), thin = dice_chance(d, 0.1);
+    const bool uniform = rng_chance(d, 0.5), thin = rng_chance(d, 0.1);
     for (int i = 0; i < 3; i++) {
-        factor[i] = uniform && i > 0 ? factor[0] : scale * dice_range(d, 0.3, 1.2);
+        factor[i] = uniform && i > 0 ? factor[0] : scale * rng_range(d, 0.3, 1.2);
     }
     factor[1] *= thin ? 0.003 : 1.0;
-    factor[2] *= dice_chance(d, 0.1) ? -1.0 : 1.0;
+    factor[2] *= rng_chance(d, 0.1) ? -1.0 : 1.0;
     write_text(w, " scale ");
     write_vector(w, factor);
     apply_scale(&p, factor);
-    if (dice_chance(d, 0.7)) {
+    if (rng_chance(d, 0.7)) {
         draw_rotation(w, degrees);
         write_text(w, " rotate ");
         write_vector(w, degrees);
         apply_rotation(&p, degrees);
     }
     for (int i = 0; i < 3; i++) {
-        at[i] = world->offset[i] + reach * dice_range(d, -1.0, 1.0);
+        at[i] = world->offset[i] + reach * rng_range(d, -1.0, 1.0);
         p.matrix[3][i] += at[i];
     }
     write_text(w, " translate ");
@@ -142,11 +142,11 @@ static double length(const double v[3])
     return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 }
 
-static void draw_in_ball(struct dice *d, double radius, double v[3])
+static void draw_in_ball(struct rng *d, double radius, double v[3])
 {
     do {
         for (int i = 0; i < 3; i++) {
-            v[i] = dice_range(d, -1.0, 1.0);
+            v[i] = rng_range(d, -1.0, 1.0);
         }
     } while (length(v) > 1.0 || length(v) < 0.01);
     for (int i = 0; i < 3; i++) {
@@ -156,9 +156,9 @@ static void draw_in_ball(struct dice *d, double radius, double v[3])
 
 /* From where to what is looked, around the object: from outside, from inside, from afar, along an
  * axis of the world. */
-static void draw_ray(struct dice *d, const struct placement *p, double from[3], double to[3])
+static void draw_ray(struct rng *d, const struct placement *p, double from[3], double to[3])
 {
-    const double kind = dice_unit(d);
+    const double kind = rng_unit(d);
     double local[3], target[3];
 
     draw_in_ball(d, 1.3, target);
@@ -170,8 +170,8 @@ static void draw_ray(struct dice *d, const struct placement *p, double from[3], 
     }
     place(p, local, from);
     if (kind > 0.7) {
-        const uint32_t axis = dice_below(d, 3);
-        const double sign = dice_chance(d, 0.5) ? 1.0 : -1.0;
+        const uint32_t axis = rng_below(d, 3);
+        const double sign = rng_chance(d, 0.5) ? 1.0 : -1.0;
         double way[3] = {from[0] - to[0], from[1] - to[1], from[2] - to[2]};
         const double far = sign * length(way);
         for (uint32_t i = 0; i < 3; i++) {
@@ -209,8 +209,7 @@ static void face_of_ray(const double from[3], const double to[3], double corner[
     }
 }
 
-bool add_rays(struct ray_list *list, struct dice *dice, const struct placement *placement,
-              int count)
+bool add_rays(struct ray_list *list, struct rng *rng, const struct placement *placement, int count)
 {
     const size_t needed = list->count + (size_t)count;
 
@@ -225,7 +224,7 @@ bool add_rays(struct ray_list *list, struct dice *dice, const struct placement *
     }
     for (; list->count < needed; list->count++) {
         double from[3], to[3];
-        draw_ray(dice, placement, from, to);
+        draw_ray(rng, placement, from, to);
         face_of_ray(from, to, &list->corners[3 * list->count]);
     }
     return true;

@@ -13,9 +13,9 @@ struct placement {
 };
 
 struct world {
-    double scale;     /* size of its objects */
-    bool mixed;       /* objects of all sizes instead */
-    bool dark;        /* without lights */
+    double scale; /* size of its objects */
+    bool mixed;   /* objects of all sizes instead */
+    bool dark;    /* without lights */
     bool photons;
     double offset[3]; /* where its middle is */
 };
@@ -33,8 +33,7 @@ struct ray_list {
 };
 
 /* False if there is no memory. */
-bool add_rays(struct ray_list *list, struct dice *dice, const struct placement *placement,
-              int count);
+bool add_rays(struct ray_list *list, struct rng *rng, const struct placement *placement, int count);
 
 void write_rays(struct writer *w, const struct ray_list *list);
 

@@ -26,9 +26,9 @@ void write_vector(struct writer *w, const double v[3])
 
 double draw_number(struct writer *w, double lo, double hi)
 {
-    const double x = dice_range(&w->dice, lo, hi);
+    const double x = rng_range(&w->rng, lo, hi);
     const double rounded = round(x * 4.0) / 4.0;
-    const bool round = dice_chance(&w->dice, 0.25);
+    const bool round = rng_chance(&w->rng, 0.25);
 
     return round && rounded >= lo && rounded <= hi ? rounded : x;
 }
@@ -42,15 +42,15 @@ void draw_point(struct writer *w, double half_side, double point[3])
 
 void draw_direction(struct writer *w, double direction[3])
 {
-    const bool axis = dice_chance(&w->dice, 0.25);
-    const uint32_t which = dice_below(&w->dice, 3);
-    const double sign = dice_chance(&w->dice, 0.5) ? 1.0 : -1.0;
+    const bool axis = rng_chance(&w->rng, 0.25);
+    const uint32_t which = rng_below(&w->rng, 3);
+    const double sign = rng_chance(&w->rng, 0.5) ? 1.0 : -1.0;
     double square;
 
     do {
         square = 0.0;
         for (int i = 0; i < 3; i++) {
-            direction[i] = dice_range(&w->dice, -1.0, 1.0);
+            direction[i] = rng_range(&w->rng, -1.0, 1.0);
             square += direction[i] * direction[i];
         }
     } while (square > 1.0 || square < 0.01);
@@ -61,10 +61,10 @@ void draw_direction(struct writer *w, double direction[3])
 
 void draw_rotation(struct writer *w, double degrees[3])
 {
-    const bool right = dice_chance(&w->dice, 0.4);
+    const bool right = rng_chance(&w->rng, 0.4);
 
     for (int i = 0; i < 3; i++) {
-        const double turn = dice_range(&w->dice, -2.0, 2.0);
+        const double turn = rng_range(&w->rng, -2.0, 2.0);
         degrees[i] = 90.0 * (right ? round(turn) : turn);
     }
 }
@@ -96,7 +96,7 @@ static void write_drawn(struct writer *w, char code, double last[3])
         break;
     case 'c':
         for (int i = 0; i < 3; i++) {
-            v[i] = dice_range(&w->dice, 0.1, 1.0);
+            v[i] = rng_range(&w->rng, 0.1, 1.0);
         }
         write_vector(w, v);
         break;
@@ -119,7 +119,7 @@ void write_pattern(struct writer *w, const char *pattern)
 
     for (const char *c = pattern; *c != '\0'; c++) {
         if (*c == '[') {
-            w->out = dice_chance(&w->dice, 0.5) ? out : NULL;
+            w->out = rng_chance(&w->rng, 0.5) ? out : NULL;
         } else if (*c == ']') {
             w->out = out;
         } else if (*c == '@') {

@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
  * Writes POV-Ray's scene language with random numbers in it. All that is written is decided by the
- * dice alone; a writer without a file draws the same numbers and writes nothing.
+ * rng alone; a writer without a file draws the same numbers and writes nothing.
  */
 #ifndef OBJECTS_WRITER_H
 #define OBJECTS_WRITER_H
 
-#include "dice.h"
+#include "rng.h"
 
 #include <stdio.h>
 
 struct writer {
     FILE *out; /* NULL: write nothing */
-    struct dice dice;
+    struct rng rng;
     int budget; /* shapes that the object may still have */
     bool dark;  /* the scene has no lights */
 };

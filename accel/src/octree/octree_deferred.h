@@ -19,8 +19,8 @@
  * Bad at: being entered everywhere. The ids of all parts are kept, which takes memory that an eager
  * build does not need, and a walk goes from block to block.
  */
-#ifndef ACCEL_OCTREE_LATER_H
-#define ACCEL_OCTREE_LATER_H
+#ifndef ACCEL_OCTREE_DEFERRED_H
+#define ACCEL_OCTREE_DEFERRED_H
 
 #include <stdatomic.h>
 
@@ -28,7 +28,7 @@
 
 struct octree_part;
 
-struct octree_later {
+struct octree_deferred {
     accel_box box;       /* the cell */
     const uint32_t *ids; /* what meets it, rising; of a pool that grows: set in the end */
     uint32_t count;      /* of them */
@@ -36,10 +36,10 @@ struct octree_later {
     uint32_t depth;      /* of the cell in its tree */
     uint32_t failed;     /* the builder's, as is the budget */
     double budget;
-    atomic_uint turned_away; /* entries since there was no memory; 0: there was */
-    atomic_uintptr_t built;  /* 0 until a ray enters it; then the part's address, and its mark in
-                                the low bits */
-    atomic_uintptr_t check;  /* 0; then, a moment after, the complement of built */
+    atomic_uint retries;    /* retries since an allocation failed */
+    atomic_uintptr_t built; /* 0 until a ray enters it; then the part's address, and its mark in
+                               the low bits */
+    atomic_uintptr_t check; /* 0; then, a moment after, the complement of built */
 };
 
 /* The low bits of an address, which are 0. */
@@ -76,39 +76,41 @@ struct octree_lazy {
 
 /* A whole tree, to be built later over ids[0 .. count - 1], count > 0, all inside `box`. The ids
  * must stay. */
-struct octree_later accel_octree_for_later(const uint32_t *ids, size_t count, const accel_box *box,
-                                           struct octree_rule rule);
+struct octree_deferred accel_octree_defer(const uint32_t *ids, size_t count, const accel_box *box,
+                                          struct octree_rule rule);
 
 /* Grows the cells of a part, which belongs to the tree in the box `tree`, into *pool and *root. */
 bool accel_octree_grow_part(struct build *build, struct octree_pool *pool, struct octree_cell *root,
-                            const struct octree_lazy *lazy, const struct octree_later *part,
+                            const struct octree_lazy *lazy, const struct octree_deferred *part,
                             const accel_box *tree, bool *refused);
 
 /* Builds a part that is not there yet. NULL: there is no memory now, test its ids. */
 const struct octree_part *accel_octree_build_part(const struct octree_lazy *lazy,
-                                                  struct octree_later *later,
+                                                  struct octree_deferred *deferred,
                                                   const accel_box *tree);
 
 /* The part, or NULL if it is not built. */
-static inline struct octree_part *octree_part_of(const struct octree_later *later)
+static inline struct octree_part *octree_part_of(const struct octree_deferred *deferred)
 {
-    const uintptr_t built = atomic_load_explicit(&later->built, memory_order_acquire);
+    const uintptr_t built = atomic_load_explicit(&deferred->built, memory_order_acquire);
     return (struct octree_part *)(built & ~(uintptr_t)OCTREE_MARK);
 }
 
 /* The same for checks, also while it is built: false if what leads to the part was overwritten. */
-bool accel_octree_part_is_sound(const struct octree_later *later, const struct octree_part **part);
+bool accel_octree_part_is_sound(const struct octree_deferred *deferred,
+                                const struct octree_part **part);
 
 /* The part, which is built if this is the first entry. NULL: test its ids. */
-static inline const struct octree_part *
-octree_enter(const struct octree_lazy *lazy, struct octree_later *later, const accel_box *tree)
+static inline const struct octree_part *octree_enter(const struct octree_lazy *lazy,
+                                                     struct octree_deferred *deferred,
+                                                     const accel_box *tree)
 {
-    const struct octree_part *part = octree_part_of(later);
-    return __builtin_expect(part != NULL, 1) ? part : accel_octree_build_part(lazy, later, tree);
+    const struct octree_part *part = octree_part_of(deferred);
+    return __builtin_expect(part != NULL, 1) ? part : accel_octree_build_part(lazy, deferred, tree);
 }
 
 /* The walk of a lazy tree. */
-void accel_octree_walk_lazy(const struct octree_lazy *lazy, struct octree_later *tree,
+void accel_octree_walk_lazy(const struct octree_lazy *lazy, struct octree_deferred *tree,
                             struct query *q);
 
 /* What is built by now, and what is not. */
@@ -120,14 +122,14 @@ struct octree_census {
 };
 
 /* Adds a part and the parts in it; is it built? While others query it may miss what they build. */
-bool accel_octree_count(const struct octree_later *later, struct octree_census *census);
+bool accel_octree_count(const struct octree_deferred *deferred, struct octree_census *census);
 
 /* As accel_octree_validate, for as much as is built. */
-bool accel_octree_validate_lazy(const struct octree_lazy *lazy, const struct octree_later *tree,
+bool accel_octree_validate_lazy(const struct octree_lazy *lazy, const struct octree_deferred *tree,
                                 const uint32_t *ids, size_t count, accel_error *error);
 
 /* Frees what was built below. */
-void accel_octree_free_parts(const struct octree_lazy *lazy, struct octree_later *later);
+void accel_octree_free_parts(const struct octree_lazy *lazy, struct octree_deferred *deferred);
 
 /* The default of the option `part`. On the dragon of 871,414 triangles, against an eager build: up
  * to the first 100 rays, build included, took 0.57 of the time with 512, 0.60 with 4,096, 0.67 with

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * assimp's doors to files. The mesh file itself is served from memory, and no other one, so that a
+ * assimp's streams. The mesh file itself is served from memory, and no other one, so that a
  * hostile scene cannot have other files read. Materials and pictures are not needed.
  */
 #include "scene_file.h"
@@ -9,20 +9,20 @@
 #include <string.h>
 
 /* An open file: bytes and a place in them. */
-typedef struct door {
-    struct aiFile file; /* what assimp sees; its UserData is this door */
+typedef struct stream {
+    struct aiFile file; /* what assimp sees; its UserData is this stream */
     struct file bytes;  /* of the mesh file */
     size_t at;          /* of the next byte */
-} door;
+} stream;
 
-static door *door_of(struct aiFile *file)
+static stream *stream_of(struct aiFile *file)
 {
-    return (door *)(void *)file->UserData;
+    return (stream *)(void *)file->UserData;
 }
 
-static size_t door_read(struct aiFile *file, char *to, size_t size, size_t count)
+static size_t stream_read(struct aiFile *file, char *to, size_t size, size_t count)
 {
-    door *d = door_of(file);
+    stream *d = stream_of(file);
     const size_t whole = size == 0 ? 0 : (d->bytes.size - d->at) / size;
     const size_t items = count < whole ? count : whole;
     memcpy(to, d->bytes.bytes + d->at, items * size);
@@ -30,25 +30,25 @@ static size_t door_read(struct aiFile *file, char *to, size_t size, size_t count
     return items;
 }
 
-static size_t door_write(struct aiFile *file, const char *from, size_t size, size_t count)
+static size_t stream_write(struct aiFile *file, const char *from, size_t size, size_t count)
 {
     (void)file, (void)from, (void)size, (void)count;
     return 0;
 }
 
-static size_t door_tell(struct aiFile *file)
+static size_t stream_tell(struct aiFile *file)
 {
-    return door_of(file)->at;
+    return stream_of(file)->at;
 }
 
-static size_t door_size(struct aiFile *file)
+static size_t stream_size(struct aiFile *file)
 {
-    return door_of(file)->bytes.size;
+    return stream_of(file)->bytes.size;
 }
 
-static enum aiReturn door_seek(struct aiFile *file, size_t offset, enum aiOrigin origin)
+static enum aiReturn stream_seek(struct aiFile *file, size_t offset, enum aiOrigin origin)
 {
-    door *d = door_of(file);
+    stream *d = stream_of(file);
     const size_t from = origin == aiOrigin_SET ? 0 : origin == aiOrigin_CUR ? d->at : d->bytes.size;
     /* offsets back arrive as huge numbers: the sum wraps as it should */
     const size_t to = from + offset;
@@ -59,7 +59,7 @@ static enum aiReturn door_seek(struct aiFile *file, size_t offset, enum aiOrigin
     return aiReturn_SUCCESS;
 }
 
-static void door_flush(struct aiFile *file)
+static void stream_flush(struct aiFile *file)
 {
     (void)file;
 }
@@ -68,17 +68,17 @@ struct aiFile *file_open(struct aiFileIO *io, const char *path, const char *mode
 {
     const struct import_file *import = (const struct import_file *)(void *)io->UserData;
     const bool own = strchr(mode, 'r') != NULL && strcmp(path, import->file.path) == 0;
-    door *d = own ? calloc(1, sizeof *d) : NULL;
+    stream *d = own ? calloc(1, sizeof *d) : NULL;
     if (d == NULL) {
         return NULL;
     }
     d->bytes = import->file;
-    d->file = (struct aiFile){.ReadProc = door_read,
-                              .WriteProc = door_write,
-                              .TellProc = door_tell,
-                              .FileSizeProc = door_size,
-                              .SeekProc = door_seek,
-                              .FlushProc = door_flush,
+    d->file = (struct aiFile){.ReadProc = stream_read,
+                              .WriteProc = stream_write,
+                              .TellProc = stream_tell,
+                              .FileSizeProc = stream_size,
+                              .SeekProc = stream_seek,
+                              .FlushProc = stream_flush,
                               .UserData = (char *)d};
     return &d->file;
 }
@@ -86,5 +86,5 @@ struct aiFile *file_open(struct aiFileIO *io, const char *path, const char *mode
 void file_close(struct aiFileIO *io, struct aiFile *file)
 {
     (void)io;
-    free(door_of(file));
+    free(stream_of(file));
 }

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Gathering crumbs: parts of so few primitives that an octree would not pay, such as loose cubes,
- * leaves of a tree, the cells of a cloud of spheres.
+ * Gathering fragments: parts of so few primitives that an octree would not pay, such as loose
+ * cubes, leaves of a tree, the cells of a cloud of spheres.
  *
- * The crumbs of a size class are joined where the gap between their boxes is at most d, then the
+ * The fragments of a size class are joined where the gap between their boxes is at most d, then the
  * clusters that this gives where theirs is at most 2d, and so on, until one is left; of these
  * partitions the one with the lowest predicted cost is taken. Those with more clusters than the
- * square root of the primitives are out of the question, unless there are but a few crumbs in all:
- * a tree over more clusters than there are primitives in each does what octrees do better.
+ * square root of the primitives are out of the question, unless there are but a few fragments in
+ * all: a tree over more clusters than there are primitives in each does what octrees do better.
  * Doubling finds the distances at which the class falls apart, to a factor of two. Each gap is one
  * pass, linear in the clusters of the one before; there are at most CELLS_OCTAVES of them, and
  * after the first few hardly anything is left to look at.
@@ -20,13 +20,13 @@
 #include "../core/order.h"
 
 enum {
-    FEWEST = 8,  /* primitives of a crumb, on average, where there are many */
+    FEWEST = 8,  /* primitives of a fragment, on average, where there are many */
     LEAST = 4096 /* primitives that are many */
 };
 
 struct gatherer {
     struct parts *parts;
-    struct ids crumbs;                     /* of one class: root parts */
+    struct ids fragments;                  /* of one class: root parts */
     uint64_t primitives;                   /* in them */
     size_t roots, all;                     /* root parts of every class, and their primitives */
     accel_box box;                         /* around them */
@@ -36,7 +36,7 @@ struct gatherer {
     uint32_t octave_at[CELLS_OCTAVES + 1]; /* where each octave begins in `order` */
     ARRAY_OF(uint32_t) group;              /* by cluster so far */
     ARRAY_OF(uint32_t) number;             /* by root group: the new cluster */
-    ARRAY_OF(uint32_t) cluster_of, best;   /* by crumb: its cluster now, in the best partition */
+    ARRAY_OF(uint32_t) cluster_of, best;   /* by fragment: its cluster now, in the best partition */
     double best_cost;                      /* INFINITY: no partition was legal yet */
 };
 
@@ -45,17 +45,17 @@ static struct memory *memory_of(const struct gatherer *g)
     return &g->parts->build->a->memory;
 }
 
-/* ------------------------------------------------------------------- the crumbs ---- */
+/* ------------------------------------------------------------------- the fragments ---- */
 
 static void take(struct gatherer *g, uint32_t part)
 {
-    const struct cluster *crumb = &g->parts->part.at[part];
-    const uint32_t i = (uint32_t)g->crumbs.count++;
-    g->crumbs.at[i] = part;
-    g->now.at[i] = *crumb;
-    g->now.at[i].box = frame_box(&g->parts->sizes.frame, &crumb->box);
+    const struct cluster *fragment = &g->parts->part.at[part];
+    const uint32_t i = (uint32_t)g->fragments.count++;
+    g->fragments.at[i] = part;
+    g->now.at[i] = *fragment;
+    g->now.at[i].box = frame_box(&g->parts->sizes.frame, &fragment->box);
     g->cluster_of.at[i] = i;
-    g->primitives += crumb->count;
+    g->primitives += fragment->count;
     box_add(&g->box, &g->now.at[i].box);
 }
 
@@ -63,7 +63,8 @@ static bool collect(struct gatherer *g, uint32_t class, bool all)
 {
     const struct parts *p = g->parts;
     struct memory *m = memory_of(g);
-    if (!array_reserve(m, &g->crumbs, p->part.count) || !array_reserve(m, &g->now, p->part.count) ||
+    if (!array_reserve(m, &g->fragments, p->part.count) ||
+        !array_reserve(m, &g->now, p->part.count) ||
         !array_reserve(m, &g->cluster_of, p->part.count))
         return accel_build_no_memory(p->build);
     g->box = box_empty();
@@ -74,14 +75,14 @@ static bool collect(struct gatherer *g, uint32_t class, bool all)
             continue;
         g->roots++;
         g->all += part->count;
-        if (part->size_class == class && (all || part->count < p->crumb))
+        if (part->size_class == class && (all || part->count < p->fragment))
             take(g, (uint32_t)i);
     }
-    g->now.count = g->cluster_of.count = g->crumbs.count;
+    g->now.count = g->cluster_of.count = g->fragments.count;
     return true;
 }
 
-/* The mean size of a crumb. */
+/* The mean size of a fragment. */
 static double mean_size(const struct gatherer *g)
 {
     double sum = 0.0;
@@ -169,7 +170,7 @@ static bool regroup(struct gatherer *g, size_t groups)
         box_add(&g->next.at[*number].box, &g->now.at[i].box);
         g->next.at[*number].count += g->now.at[i].count;
     }
-    for (size_t i = 0; i < g->crumbs.count; i++)
+    for (size_t i = 0; i < g->fragments.count; i++)
         g->cluster_of.at[i] = g->group.at[g->cluster_of.at[i]];
     for (size_t i = 0; i < g->next.count; i++)
         g->now.at[i] = g->next.at[i];
@@ -181,12 +182,13 @@ static bool regroup(struct gatherer *g, size_t groups)
 static bool join_over(struct gatherer *g, double gap)
 {
     struct touching t = {0};
-    const bool room = accel_touching_reserve(memory_of(g), &t, g->now.count);
-    bool fine = room ? sort(g, gap) && connect(g, &t, gap) : accel_build_no_memory(g->parts->build);
+    const bool capacity = accel_touching_reserve(memory_of(g), &t, g->now.count);
+    bool fine =
+        capacity ? sort(g, gap) && connect(g, &t, gap) : accel_build_no_memory(g->parts->build);
     for (size_t i = 0; fine && i < g->now.count; i++)
         g->group.at[i] = accel_touching_root(&t, g->group.at[i]);
     fine = fine && regroup(g, t.groups.count);
-    g->parts->looks += t.looks;
+    g->parts->visits += t.visits;
     accel_touching_free(memory_of(g), &t);
     return fine;
 }
@@ -198,7 +200,7 @@ static bool join_in_cells(struct gatherer *g, struct cells *cells, uint32_t octa
     g->group.count = 0;
     if (!array_extend(memory_of(g), &g->group, g->now.count))
         return accel_build_no_memory(g->parts->build);
-    g->parts->looks += g->now.count;
+    g->parts->visits += g->now.count;
     for (size_t i = 0; i < g->now.count; i++) {
         const uint64_t key = accel_order_morton(&g->now.at[i].box) >> 3 * (CELLS_OCTAVES - octave);
         struct cell_slot *slot = accel_cells_at(memory_of(g), cells, key);
@@ -211,8 +213,8 @@ static bool join_in_cells(struct gatherer *g, struct cells *cells, uint32_t octa
     return regroup(g, groups);
 }
 
-/* Where there are more crumbs than one for each FEWEST primitives, as where most primitives are in
- * one place and the rest is scattered, joins some at once: to join them gap by gap would take
+/* Where there are more fragments than one for each FEWEST primitives, as where most primitives are
+ * in one place and the rest is scattered, joins some at once: to join them gap by gap would take
  * longer, for partitions that are out of the question. The first cells are those that they would
  * fill evenly. */
 static bool coarsen(struct gatherer *g)
@@ -240,13 +242,13 @@ static double cost(const struct gatherer *g)
 
 static void keep(struct gatherer *g)
 {
-    memcpy(g->best.at, g->cluster_of.at, g->crumbs.count * sizeof *g->best.at);
+    memcpy(g->best.at, g->cluster_of.at, g->fragments.count * sizeof *g->best.at);
 }
 
 /* Keeps the partition if it is legal, and cheaper than the best so far. */
-static void judge(struct gatherer *g)
+static void assess(struct gatherer *g)
 {
-    const double allowed = fmax(PARTS_CRUMB, sqrt((double)g->primitives));
+    const double allowed = fmax(PARTS_FRAGMENT, sqrt((double)g->primitives));
     if ((double)g->now.count > allowed)
         return;
     const double now = cost(g);
@@ -263,7 +265,7 @@ static bool sweep(struct gatherer *g, double gap)
     for (; g->now.count > 1 && gap < 1.0; gap *= 2.0) {
         if (!join_over(g, gap))
             return false;
-        judge(g);
+        assess(g);
     }
     return true;
 }
@@ -272,12 +274,13 @@ static bool apply(struct gatherer *g)
 {
     struct parts *p = g->parts;
     g->number.count = 0;
-    if (!array_extend(memory_of(g), &g->number, g->crumbs.count))
+    if (!array_extend(memory_of(g), &g->number, g->fragments.count))
         return accel_build_no_memory(p->build);
-    memset(g->number.at, 0xff, g->crumbs.count * sizeof *g->number.at);
-    for (size_t i = 0; i < g->crumbs.count; i++) {
+    memset(g->number.at, 0xff, g->fragments.count * sizeof *g->number.at);
+    for (size_t i = 0; i < g->fragments.count; i++) {
         uint32_t *root = &g->number.at[g->best.at[i]];
-        *root = *root == ACCEL_NONE ? g->crumbs.at[i] : accel_parts_join(p, *root, g->crumbs.at[i]);
+        *root = *root == ACCEL_NONE ? g->fragments.at[i]
+                                    : accel_parts_join(p, *root, g->fragments.at[i]);
     }
     return true;
 }
@@ -285,14 +288,14 @@ static bool apply(struct gatherer *g)
 /* Are there so many parts that small ones must be gathered? */
 static bool too_many(const struct gatherer *g)
 {
-    return g->crumbs.count > 1 &&
-           (g->parts->crumb > PARTS_CRUMB || g->roots > g->all / PARTS_CRUMB);
+    return g->fragments.count > 1 &&
+           (g->parts->fragment > PARTS_FRAGMENT || g->roots > g->all / PARTS_FRAGMENT);
 }
 
 /* Finds the best partition over gaps, or the one of what touches, and applies it. */
 static bool gather(struct gatherer *g, double gap, bool touching)
 {
-    if (!array_extend(memory_of(g), &g->best, g->crumbs.count))
+    if (!array_extend(memory_of(g), &g->best, g->fragments.count))
         return accel_build_no_memory(g->parts->build);
     if (touching) {
         if (!join_over(g, 0.0))
@@ -312,8 +315,8 @@ static bool gather_class(struct parts *p, uint32_t class, double gap, bool touch
     struct gatherer g = {.parts = p};
     struct memory *m = memory_of(&g);
     const bool fine =
-        collect(&g, class, touching) && (g.crumbs.count < 2 || gather(&g, gap, touching));
-    array_free(m, &g.crumbs);
+        collect(&g, class, touching) && (g.fragments.count < 2 || gather(&g, gap, touching));
+    array_free(m, &g.fragments);
     array_free(m, &g.now);
     array_free(m, &g.next);
     array_free(m, &g.order);
@@ -332,10 +335,10 @@ bool accel_parts_join_touching(struct parts *p)
     return true;
 }
 
-bool accel_parts_join_crumbs(struct parts *p, const struct look *look)
+bool accel_parts_join_fragments(struct parts *p, const struct parts_sample *sample)
 {
     for (uint32_t c = 0; c < p->sizes.classes; c++)
-        if (!gather_class(p, c, look ? ldexp(0.5, -(int)look->octave[c]) : 0.0, false))
+        if (!gather_class(p, c, sample ? ldexp(0.5, -(int)sample->octave[c]) : 0.0, false))
             return false;
     return true;
 }

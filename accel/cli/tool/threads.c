@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "crew.h"
+#include "threads.h"
 
 #include <pthread.h>
 #include <sched.h>
@@ -8,7 +8,7 @@
 /* A thread that was started. */
 typedef struct member {
     pthread_t thread;
-    crew_work *work;
+    thread_work *work;
     void *user;
     unsigned number;
 } member;
@@ -20,7 +20,7 @@ static void *run_member(void *argument)
     return NULL;
 }
 
-void crew(unsigned threads, crew_work *work, void *user)
+void threads_run(unsigned threads, thread_work *work, void *user)
 {
     member *members = calloc(threads, sizeof *members);
     unsigned started = 1;
@@ -39,7 +39,7 @@ void crew(unsigned threads, crew_work *work, void *user)
     free(members);
 }
 
-unsigned crew_size(void)
+unsigned threads_available(void)
 {
     cpu_set_t set;
     const int count = sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : 1;

@@ -22,7 +22,7 @@ enum { LOOSE_OTHERS = 160, LOOSE_PER_OTHER = 64, OTHERS = 320, PER_OTHER = 128 }
 
 /* Where there are MANY, no more than this share may have a cell to themselves. */
 enum { MANY = 4096 };
-#define LONELY 0.25
+#define ISOLATED 0.25
 
 /* Other primitives in a cell of its size, below which a primitive is likely to touch few. */
 #define THIN 1.5
@@ -56,17 +56,17 @@ static bool scatter(const struct parts *p, struct keyed *at, size_t count)
 }
 
 /* Who shares the cells of one octave. */
-struct company {
+struct occupancy {
     double all;     /* others in the sample in the same cell, summed over the sample */
     double own;     /* the same over those of this size */
     size_t of_size; /* how many these are */
     size_t alone;   /* how many have none */
 };
 
-static struct company company_in(const struct keyed *at, size_t count, uint32_t octave)
+static struct occupancy occupancy_in(const struct keyed *at, size_t count, uint32_t octave)
 {
     const uint32_t shift = 3 * (CELLS_OCTAVES - octave);
-    struct company c = {.all = 0.0};
+    struct occupancy c = {.all = 0.0};
     for (size_t first = 0, end; first < count; first = end) {
         size_t of_size = 0;
         for (end = first; end < count && (at[end].key ^ at[first].key) >> shift == 0; end++)
@@ -82,23 +82,23 @@ static struct company company_in(const struct keyed *at, size_t count, uint32_t 
 
 /* The share of a class's primitives that have a cell of an octave to themselves. If the cells that
  * are not nearly empty were alike, exp(-others in the sample) of it would be alone in them. */
-static double lonely(const struct company *c, size_t count)
+static double isolated(const struct occupancy *c, size_t count)
 {
     const double chance = exp(-c->all / (double)count);
     return fmax((double)c->alone / (double)count - chance, 0.0);
 }
 
 /* Judges a class by its part of the sample, `scale` times as many in the scene: finds the coarsest
- * octave whose cells are as empty as wanted, or the finest where few are lonely. Returns how many
+ * octave whose cells are as empty as wanted, or the finest where few are isolated. Returns how many
  * of the sample are loose. */
-static size_t judge_class(const struct keyed *at, size_t count, double scale, uint32_t *octave)
+static size_t assess_class(const struct keyed *at, size_t count, double scale, uint32_t *octave)
 {
-    struct company company[CELLS_OCTAVES];
+    struct occupancy occupancy[CELLS_OCTAVES];
     size_t thin = 0, smaller = count, alone = 0;
     uint32_t octaves = 0;
     for (; octaves < CELLS_OCTAVES && alone < count; octaves++) {
-        const struct company c = company_in(at, count, octaves);
-        company[octaves] = c;
+        const struct occupancy c = occupancy_in(at, count, octaves);
+        occupancy[octaves] = c;
         if (c.own * scale < THIN * (double)c.of_size)
             thin += c.of_size;
         smaller -= c.of_size;
@@ -109,15 +109,16 @@ static size_t judge_class(const struct keyed *at, size_t count, double scale, ui
     const double most = 2 * thin > count ? fmin(LOOSE_OTHERS, total / LOOSE_PER_OTHER)
                                          : fmin(OTHERS, total / PER_OTHER);
     uint32_t o = 0;
-    while (o < octaves - 1 && company[o].all * scale > most * (double)count)
+    while (o < octaves - 1 && occupancy[o].all * scale > most * (double)count)
         o++;
-    while (o > 0 && total > MANY && lonely(&company[o], count) > LONELY)
+    while (o > 0 && total > MANY && isolated(&occupancy[o], count) > ISOLATED)
         o--;
     *octave = o;
     return thin;
 }
 
-static void judge(const struct parts *p, const struct keyed *at, size_t count, struct look *look)
+static void assess(const struct parts *p, const struct keyed *at, size_t count,
+                   struct parts_sample *sample)
 {
     const double scale = (double)p->build->a->prims.bounded.count / (double)count;
     size_t thin = 0, first = 0;
@@ -125,15 +126,15 @@ static void judge(const struct parts *p, const struct keyed *at, size_t count, s
         size_t end = first;
         while (end < count && at[end].key >> 3 * CELLS_OCTAVES == class)
             end++;
-        look->octave[class] = CELLS_OCTAVES - 1;
+        sample->octave[class] = CELLS_OCTAVES - 1;
         if (end > first)
-            thin += judge_class(at + first, end - first, scale, &look->octave[class]);
+            thin += assess_class(at + first, end - first, scale, &sample->octave[class]);
         first = end;
     }
-    look->loose = 2 * thin > count;
+    sample->loose = 2 * thin > count;
 }
 
-bool accel_parts_look(const struct parts *p, struct look *look)
+bool accel_parts_sample(const struct parts *p, struct parts_sample *sample)
 {
     const size_t count = sample_size(p->build->a->prims.bounded.count);
     struct keyed *at = accel_memory_resize(memory_of(p), NULL, 0, count * sizeof *at);
@@ -141,7 +142,7 @@ bool accel_parts_look(const struct parts *p, struct look *look)
         return accel_build_no_memory(p->build);
     const bool fine = scatter(p, at, count);
     if (fine)
-        judge(p, at, count, look);
+        assess(p, at, count, sample);
     accel_memory_resize(memory_of(p), at, count * sizeof *at, 0);
     return fine;
 }
