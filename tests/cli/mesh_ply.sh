@@ -94,6 +94,13 @@ for count in 400 2147483647 4294967295 99999999999999999; do
 done
 refuses more_digits.ply ":3: found '18446744073709551616'" "${text/vertex 4/vertex 18446744073709551616}$corners$four"
 
+# A float in text is the nearest float, rounded once: the second lies a little above the middle of two,
+# where the nearest double is. What no float is near stays a double.
+write floats.ply "ply\nformat ascii 1.0\nelement vertex 3\n${xyz}element face 1\n${list}end_header\n0.1 1.00000005960464477539062500001 0\n1e300 0 0\n0 0 1\n3 0 1 2\n"
+expect 0 export floats.ply -o floats.inc --as triangles
+grep -qxF '{<0.10000000149011612,1.0000001192092896,0>,<1.0000000000000001e+300,0,0>,<0,0,1>}' floats.inc ||
+    fail "floats.ply: $(tail -n 2 floats.inc)"
+
 # Binary.
 le=$(little 0 0 0 1 0 0 0 1 0 0 0 1) be=$(big 0 0 0 1 0 0 0 1 0 0 0 1)
 le_faces= be_faces=

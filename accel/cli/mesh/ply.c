@@ -176,10 +176,20 @@ static bool take_corners(body *b, const ply_property *property, bool strips)
     return true;
 }
 
+/* Takes a coordinate: a float in text is the float that it is in the binary form. */
+static inline bool take_coordinate(body *b, ply_type type, double *number)
+{
+    if (b->p->form != PLY_TEXT || type != PLY_FLOAT) {
+        return take_number(b, type, number);
+    }
+    return (mesh_skip_space(&b->r->text) && mesh_take_float(&b->r->text, number)) ||
+           mesh_expect(b->r, "a decimal number in the range of double");
+}
+
 static bool take_property(body *b, const ply_element *e, const ply_property *property)
 {
     if (property->use < PLY_CORNERS) {
-        return take_number(b, property->type, &b->place[property->use]);
+        return take_coordinate(b, property->type, &b->place[property->use]);
     }
     if (property->use == PLY_CORNERS && e->role != PLY_OTHER) {
         return take_corners(b, property, e->role == PLY_STRIPS);

@@ -7,6 +7,7 @@
 #include <ctype.h>
 #include <float.h>
 #include <stdio.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -194,6 +195,31 @@ bool mesh_take_number(mesh_text *text, double *number)
         return false;
     }
     text->at = at;
+    return true;
+}
+
+bool mesh_take_float(mesh_text *text, double *number)
+{
+    const char *const begin = text->at;
+    uint64_t bits;
+    if (!mesh_take_number(text, number)) {
+        return false;
+    }
+    memcpy(&bits, number, sizeof bits);
+    const double size = fabs(*number);
+    if (size > (double)FLT_MAX || size < (double)FLT_MIN) {
+        return true;
+    }
+    const bool midway = (bits & UINT64_C(0x1fffffff)) == UINT64_C(0x10000000);
+    char copy[LONGEST_NUMBER + 1];
+    const size_t length = (size_t)(text->at - begin);
+    if (midway && length <= LONGEST_NUMBER && text->c_locale != (locale_t)0) {
+        memcpy(copy, begin, length);
+        copy[length] = '\0';
+        *number = (double)strtof_l(copy, NULL, text->c_locale);
+    } else {
+        *number = (double)(float)*number;
+    }
     return true;
 }
 

@@ -110,6 +110,10 @@ bool mesh_same_word(const char *word, size_t length, const char *wanted);
 /* Takes the number at `at`. Otherwise returns false and leaves `at`. */
 bool mesh_take_number(mesh_text *text, double *number);
 
+/* The same, rounded once to the nearest float, as what is declared a float has no more digits. What
+ * is beyond a float's normal range is left a double. */
+bool mesh_take_float(mesh_text *text, double *number);
+
 /* Takes [+-] digits at `at`, which may be followed by anything; far too large ones become about
  * 10^18. Otherwise returns false and leaves `at`. */
 bool mesh_take_integer(mesh_text *text, int64_t *number);
