@@ -118,20 +118,22 @@ static uint32_t count_lost(const struct boxes *b, const accel_ray *ray, double l
 {
     struct wide_ray r;
     struct query q = query_of(ray);
-    _Alignas(64) float begin[WIDE];
+    begins where;
+    _Alignas(64) uint32_t begin[WIDE];
     uint32_t lost = 0;
     if (!wide_ray_from(&r, &b->w, ray->org, ray->dir, ray->tmin))
         return 0;
     q.limit = limit;
     const struct node_ray n =
         node_ray_from(&r, wide_limit(&r, limit < ray->tmax ? limit : ray->tmax));
-    const uint32_t meets = node_meets(&n, &b->node, begin);
+    const uint32_t meets = node_meets(&n, &b->node, &where);
+    begins_store(&where, begin);
     for (uint32_t i = 0; i < WIDE; i++) {
         const struct interval s = query_box(&q, &b->padded[i]);
         if (!query_meets(&q, s))
             continue;
         ++*met;
-        lost += !(meets >> i & 1) || begin[i] > wide_limit(&r, limit);
+        lost += !(meets >> i & 1) || begin[i] > bits_of(wide_limit(&r, limit));
     }
     return lost;
 }

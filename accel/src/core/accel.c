@@ -240,7 +240,7 @@ __attribute__((noinline)) static accel_status build_scene(accel **out, const acc
     return ACCEL_OK;
 }
 
-CONTRACT_CHECK(contract_kept)
+CONTRACT_CHECK(contract_kept);
 
 accel_status accel_build(accel **out, const accel_scene *scene, const char *config,
                          const accel_hooks *hooks, accel_error *error)

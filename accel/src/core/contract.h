@@ -31,6 +31,7 @@
         const volatile double third = 1.0 / 3.0, large = 0x1p60;                                   \
         const double a = third, b = third, c = third, d = third, e = large;                        \
         return a * b - c * d == 0.0 && a + e - e != a;                                             \
-    }
+    }                                                                                              \
+    static bool name(void)
 
 #endif

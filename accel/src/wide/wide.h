@@ -33,9 +33,10 @@ enum { WIDE = 16, WIDE_MAX_DEPTH = 96, WIDE_BLOCK = 8 };
 
 #define WIDE_LEAF 0x80000000u
 
+/* The words come first: they are wanted last, but by then are there. */
 struct wide_node {
-    float plane[3][2][WIDE]; /* axis, lower or upper side, child; no child: infinity, -infinity */
     uint32_t child[WIDE];    /* words; children with the largest surface last */
+    float plane[3][2][WIDE]; /* axis, lower or upper side, child; no child: infinity, -infinity */
 };
 
 /* What a block holds. */

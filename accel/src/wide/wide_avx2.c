@@ -21,14 +21,21 @@
 #pragma GCC target("avx2,fma,bmi,lzcnt,popcnt")
 #endif
 
+/* Where children begin, in two halves: no float below is negative where it matters, so all compare
+ * as the integers that their bits are, which takes less time, and to which steps can be added. */
+typedef struct begins {
+    __m256i half[2];
+} begins;
+
 struct node_ray {
-    __m256 inverse[3], offset[3], tmin, limit;
-    size_t near[3]; /* bytes from a node to the near planes */
+    __m256 inverse[3], offset[3];
+    __m256i tmin, limit;
+    size_t near[3]; /* bytes from the planes of a node to the near ones */
 };
 
 static inline void node_ray_limit(struct node_ray *n, float limit)
 {
-    n->limit = _mm256_set1_ps(limit);
+    n->limit = _mm256_castps_si256(_mm256_set1_ps(limit));
 }
 
 static inline struct node_ray node_ray_from(const struct wide_ray *r, float limit)
@@ -37,41 +44,48 @@ static inline struct node_ray node_ray_from(const struct wide_ray *r, float limi
     for (uint32_t k = 0; k < 3; k++) {
         n.inverse[k] = _mm256_set1_ps(r->inverse[k]);
         n.offset[k] = _mm256_set1_ps(r->offset[k]);
-        n.near[k] = 128 * k + 64 * (r->sign >> k & 1);
+        n.near[k] = 128 * k + 64 * r->near[k];
     }
-    n.tmin = _mm256_set1_ps(r->tmin);
-    n.limit = _mm256_set1_ps(limit);
+    n.tmin = _mm256_castps_si256(_mm256_set1_ps(r->tmin));
+    node_ray_limit(&n, limit);
     return n;
 }
 
-/* Where the planes at so many bytes from the node are crossed. */
-static inline __m256 crossing(const struct node_ray *n, const char *node, size_t at, int k)
+/* Where the planes at so many bytes are crossed. */
+static inline __m256i crossing(const struct node_ray *n, const char *planes, size_t at, int k)
 {
-    return _mm256_fmadd_ps(_mm256_load_ps((const float *)(node + at)), n->inverse[k], n->offset[k]);
+    return _mm256_castps_si256(
+        _mm256_fmadd_ps(_mm256_load_ps((const float *)(planes + at)), n->inverse[k], n->offset[k]));
 }
 
-/* Eight of the children. No begin is negative, so floats compare as integers do, and steps can be
- * added. */
-static inline uint32_t half_meets(const struct node_ray *n, const char *node, float *begin)
+/* Eight of the children: bits of those that are missed. */
+static inline __m256i half_misses(const struct node_ray *n, const char *at, __m256i *begin)
 {
     const size_t *near = n->near;
-    const __m256 a =
-        _mm256_max_ps(_mm256_max_ps(crossing(n, node, near[0], 0), crossing(n, node, near[1], 1)),
-                      _mm256_max_ps(crossing(n, node, near[2], 2), n->tmin));
-    const __m256 z = _mm256_min_ps(
-        _mm256_min_ps(crossing(n, node, 64 - near[0], 0), crossing(n, node, 320 - near[1], 1)),
-        _mm256_min_ps(crossing(n, node, 576 - near[2], 2), n->limit));
-    const __m256i last = _mm256_add_epi32(_mm256_castps_si256(z), _mm256_set1_epi32(WIDE_STEPS));
-    const __m256i missed = _mm256_cmpgt_epi32(_mm256_castps_si256(a), last);
-    _mm256_store_ps(begin, a);
-    return ~(uint32_t)_mm256_movemask_ps(_mm256_castsi256_ps(missed)) & 0xff;
+    const __m256i a =
+        _mm256_max_epi32(_mm256_max_epi32(crossing(n, at, near[0], 0), crossing(n, at, near[1], 1)),
+                         _mm256_max_epi32(crossing(n, at, near[2], 2), n->tmin));
+    const __m256i z = _mm256_min_epi32(
+        _mm256_min_epi32(crossing(n, at, 64 - near[0], 0), crossing(n, at, 320 - near[1], 1)),
+        _mm256_min_epi32(crossing(n, at, 576 - near[2], 2), n->limit));
+    *begin = a;
+    return _mm256_cmpgt_epi32(a, _mm256_add_epi32(z, _mm256_set1_epi32(WIDE_STEPS)));
 }
 
-static inline uint32_t node_meets(const struct node_ray *n, const struct wide_node *node,
-                                  float begin[WIDE])
+static inline uint32_t node_meets(const struct node_ray *n, const struct wide_node *node, begins *b)
 {
-    const char *at = (const char *)node;
-    return half_meets(n, at, begin) | half_meets(n, at + 32, begin + 8) << 8;
+    const char *at = (const char *)node->plane;
+    const __m256i low = half_misses(n, at, &b->half[0]),
+                  high = half_misses(n, at + 32, &b->half[1]);
+    const uint32_t misses = (uint32_t)_mm256_movemask_ps(_mm256_castsi256_ps(low)) |
+                            (uint32_t)_mm256_movemask_ps(_mm256_castsi256_ps(high)) << 8;
+    return misses ^ 0xffff;
+}
+
+static inline void begins_store(const begins *b, uint32_t out[WIDE])
+{
+    _mm256_store_si256((__m256i *)(void *)out, b->half[0]);
+    _mm256_store_si256((__m256i *)(void *)(out + 8), b->half[1]);
 }
 
 static inline uint32_t *push_children(uint32_t *top, uint32_t meets, const struct wide_node *node)
@@ -79,22 +93,6 @@ static inline uint32_t *push_children(uint32_t *top, uint32_t meets, const struc
     for (; meets != 0; meets &= meets - 1)
         *top++ = node->child[__builtin_ctz(meets)];
     return top;
-}
-
-struct leaf_ray {
-    __m256d org[3], shear[3]; /* along kx, ky, kz */
-    uint32_t axis[3];
-};
-
-static inline struct leaf_ray leaf_ray_from(const struct wide_ray *r)
-{
-    struct leaf_ray l;
-    for (int k = 0; k < 3; k++) {
-        l.axis[k] = r->axis[k];
-        l.org[k] = _mm256_set1_pd(r->org[r->axis[k]]);
-        l.shear[k] = _mm256_set1_pd(r->shear[k]);
-    }
-    return l;
 }
 
 /* Four coordinates of a block of packed triangles: of one corner and axis, from the i-th on. */
@@ -159,13 +157,14 @@ static inline struct corners load_corners(const struct leaf_ray *l, const struct
     return c;
 }
 
-static inline bool leaf_test(const struct leaf_ray *l, struct wide_fast *f,
-                             const struct wide_block *b, bool any)
+__attribute__((noinline)) static bool leaf_test(struct wide_fast *f, const struct wide_block *b,
+                                                bool any)
 {
+    const struct leaf_ray *l = &f->leaf;
     bool better = false;
     for (uint32_t i = 0; i < b->count && !(any && better); i += LANES) {
         const struct corners c = load_corners(l, b, i);
-        better |= test_lanes(l, f, b, &c, i, any);
+        better |= test_lanes(f, b, &c, i, any);
     }
     return better;
 }
@@ -173,7 +172,7 @@ static inline bool leaf_test(const struct leaf_ray *l, struct wide_fast *f,
 #include "wide_fast.h"
 
 /* By the instructions of the set, so only to be called where they are. */
-__attribute__((noinline)) CONTRACT_CHECK(contract_kept)
+__attribute__((noinline)) CONTRACT_CHECK(contract_kept);
 
 #if defined(__clang__)
 #pragma clang attribute pop
@@ -181,7 +180,7 @@ __attribute__((noinline)) CONTRACT_CHECK(contract_kept)
 #pragma GCC pop_options
 #endif
 
-    static bool works_here(void)
+static bool works_here(void)
 {
     return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
            __builtin_cpu_supports("bmi") && contract_kept();

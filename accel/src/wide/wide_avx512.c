@@ -23,14 +23,19 @@
 #pragma GCC target("avx512f,avx512vl,avx512dq,avx512bw,avx2,fma,bmi,lzcnt,popcnt")
 #endif
 
+/* Where children begin: no float below is negative where it matters, so all compare as the integers
+ * that their bits are, which takes less time, and to which steps can be added. */
+typedef __m512i begins;
+
 struct node_ray {
-    __m512 inverse[3], offset[3], tmin, limit;
-    size_t near[3]; /* bytes from a node to the near planes */
+    __m512 inverse[3], offset[3];
+    __m512i tmin, limit;
+    size_t near[3]; /* bytes from the planes of a node to the near ones */
 };
 
 static inline void node_ray_limit(struct node_ray *n, float limit)
 {
-    n->limit = _mm512_set1_ps(limit);
+    n->limit = _mm512_castps_si512(_mm512_set1_ps(limit));
 }
 
 static inline struct node_ray node_ray_from(const struct wide_ray *r, float limit)
@@ -39,34 +44,37 @@ static inline struct node_ray node_ray_from(const struct wide_ray *r, float limi
     for (uint32_t k = 0; k < 3; k++) {
         n.inverse[k] = _mm512_set1_ps(r->inverse[k]);
         n.offset[k] = _mm512_set1_ps(r->offset[k]);
-        n.near[k] = 128 * k + 64 * (r->sign >> k & 1);
+        n.near[k] = 128 * k + 64 * r->near[k];
     }
-    n.tmin = _mm512_set1_ps(r->tmin);
-    n.limit = _mm512_set1_ps(limit);
+    n.tmin = _mm512_castps_si512(_mm512_set1_ps(r->tmin));
+    node_ray_limit(&n, limit);
     return n;
 }
 
-/* Where the planes at so many bytes from the node are crossed. */
-static inline __m512 crossing(const struct node_ray *n, const char *node, size_t at, int k)
+/* Where the planes at so many bytes are crossed. */
+static inline __m512i crossing(const struct node_ray *n, const char *planes, size_t at, int k)
 {
-    return _mm512_fmadd_ps(_mm512_load_ps((const float *)(node + at)), n->inverse[k], n->offset[k]);
+    return _mm512_castps_si512(
+        _mm512_fmadd_ps(_mm512_load_ps((const float *)(planes + at)), n->inverse[k], n->offset[k]));
 }
 
-/* No begin is negative, so floats compare as integers do, and steps can be added. */
-static inline uint32_t node_meets(const struct node_ray *n, const struct wide_node *node,
-                                  float begin[WIDE])
+static inline uint32_t node_meets(const struct node_ray *n, const struct wide_node *node, begins *b)
 {
-    const char *at = (const char *)node;
+    const char *at = (const char *)node->plane;
     const size_t *near = n->near;
-    const __m512 a =
-        _mm512_max_ps(_mm512_max_ps(crossing(n, at, near[0], 0), crossing(n, at, near[1], 1)),
-                      _mm512_max_ps(crossing(n, at, near[2], 2), n->tmin));
-    const __m512 z = _mm512_min_ps(
-        _mm512_min_ps(crossing(n, at, 64 - near[0], 0), crossing(n, at, 320 - near[1], 1)),
-        _mm512_min_ps(crossing(n, at, 576 - near[2], 2), n->limit));
-    const __m512i last = _mm512_add_epi32(_mm512_castps_si512(z), _mm512_set1_epi32(WIDE_STEPS));
-    _mm512_store_ps(begin, a);
-    return _mm512_cmple_epi32_mask(_mm512_castps_si512(a), last);
+    const __m512i a =
+        _mm512_max_epi32(_mm512_max_epi32(crossing(n, at, near[0], 0), crossing(n, at, near[1], 1)),
+                         _mm512_max_epi32(crossing(n, at, near[2], 2), n->tmin));
+    const __m512i z = _mm512_min_epi32(
+        _mm512_min_epi32(crossing(n, at, 64 - near[0], 0), crossing(n, at, 320 - near[1], 1)),
+        _mm512_min_epi32(crossing(n, at, 576 - near[2], 2), n->limit));
+    *b = a;
+    return _mm512_cmple_epi32_mask(a, _mm512_add_epi32(z, _mm512_set1_epi32(WIDE_STEPS)));
+}
+
+static inline void begins_store(const begins *b, uint32_t out[WIDE])
+{
+    _mm512_store_si512(out, *b);
 }
 
 static inline uint32_t *push_children(uint32_t *top, uint32_t meets, const struct wide_node *node)
@@ -74,22 +82,6 @@ static inline uint32_t *push_children(uint32_t *top, uint32_t meets, const struc
     const __m512i words = _mm512_load_si512(node->child);
     _mm512_storeu_si512(top, _mm512_maskz_compress_epi32((__mmask16)meets, words));
     return top + __builtin_popcount(meets);
-}
-
-struct leaf_ray {
-    __m512d org[3], shear[3]; /* along kx, ky, kz */
-    uint32_t axis[3];
-};
-
-static inline struct leaf_ray leaf_ray_from(const struct wide_ray *r)
-{
-    struct leaf_ray l;
-    for (int k = 0; k < 3; k++) {
-        l.axis[k] = r->axis[k];
-        l.org[k] = _mm512_set1_pd(r->org[r->axis[k]]);
-        l.shear[k] = _mm512_set1_pd(r->shear[k]);
-    }
-    return l;
 }
 
 #define LANES 8
@@ -194,17 +186,18 @@ static inline struct corners load_pool(const struct leaf_ray *l, const struct wi
     return c;
 }
 
-static inline bool leaf_test(const struct leaf_ray *l, struct wide_fast *f,
-                             const struct wide_block *b, bool any)
+__attribute__((always_inline)) static inline bool leaf_test(struct wide_fast *f,
+                                                            const struct wide_block *b, bool any)
 {
+    const struct leaf_ray *l = &f->leaf;
     const struct corners c = b->type == WIDE_POOL ? load_pool(l, b) : load_packed(l, b);
-    return test_lanes(l, f, b, &c, 0, any);
+    return test_lanes(f, b, &c, 0, any);
 }
 
 #include "wide_fast.h"
 
 /* By the instructions of the set, so only to be called where they are. */
-__attribute__((noinline)) CONTRACT_CHECK(contract_kept)
+__attribute__((noinline)) CONTRACT_CHECK(contract_kept);
 
 #if defined(__clang__)
 #pragma clang attribute pop
@@ -212,7 +205,7 @@ __attribute__((noinline)) CONTRACT_CHECK(contract_kept)
 #pragma GCC pop_options
 #endif
 
-    static bool works_here(void)
+static bool works_here(void)
 {
     return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
            __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") &&

@@ -262,7 +262,7 @@ static void sort_children(const struct emitter *e, struct children *c)
         const uint32_t moved = c->place[i];
         const float size = area(&e->tree->nodes[moved]);
         uint32_t to = i;
-        for (; to > 0 && area(&e->tree->nodes[c->place[to - 1]]) > size; to--)
+        for (; to > 0 && area(&e->tree->nodes[c->place[to - 1]]) < size; to--)
             c->place[to] = c->place[to - 1];
         c->place[to] = moved;
     }

@@ -2,12 +2,12 @@
  *
  * The walks of an instruction set, included by its file after
  *     struct node_ray, node_ray_from(ray, limit), node_ray_limit(&n, limit), node_meets(&n, node,
- *     begin): the children that may matter as bits, and where they begin;
+ *     &begins): the children that may matter as bits, and where they begin; begins_store(&begins,
+ *     out): the bits of these floats, of those that matter;
  *     push_children(top, meets, node): puts their words on a stack in order, and may write WIDE
  *     words; returns its new top;
- *     struct leaf_ray, leaf_ray_from(ray), leaf_test(&l, f, block, any): tests a block of
- * triangles; true if the best hit became better. Included once for each set: every function here is
- * static.
+ *     leaf_test(f, block, any): tests a block of triangles; true if the best hit became better.
+ * Included once for each set: every function here is static.
  */
 #include "wide_isa.h"
 
@@ -15,11 +15,9 @@
  * as the bits of a float, and its word. */
 typedef uint64_t waiting;
 
-static inline waiting waiting_of(float begin, uint32_t word)
+static inline waiting waiting_of(uint32_t begin, uint32_t word)
 {
-    uint32_t bits;
-    memcpy(&bits, &begin, sizeof bits);
-    return (waiting)bits << 32 | word;
+    return (waiting)begin << 32 | word;
 }
 
 static inline uint32_t bits_of(float limit)
@@ -59,13 +57,15 @@ static inline void expect(const struct wide *w, uint32_t word)
 /* Stacks all children that are met but the nearest, which it returns; meets is not 0. */
 __attribute__((always_inline)) static inline uint32_t descend(const struct wide *w,
                                                               const struct wide_node *node,
-                                                              uint32_t meets, const float *begin,
+                                                              uint32_t meets, const begins *where,
                                                               waiting **top)
 {
+    _Alignas(64) uint32_t begin[WIDE];
     uint32_t i = next_child(&meets);
     expect(w, node->child[i]);
     if (meets == 0)
         return node->child[i];
+    begins_store(where, begin);
     const waiting a = waiting_of(begin[i], node->child[i]);
     i = next_child(&meets);
     expect(w, node->child[i]);
@@ -109,7 +109,7 @@ static inline bool begin_fast(struct wide_fast *f, const accel *a, const struct 
     f->skip = primitives_id(&a->prims, ray->skip);
     f->best = (double)INFINITY;
     f->id = ACCEL_NONE;
-    f->prepared = false;
+    f->prepared = f->comes_to_leaves = false;
     f->nodes = f->tests = 0;
     return true;
 }
@@ -123,13 +123,17 @@ static inline void end_fast(const struct wide_fast *f, accel_query *counters)
 }
 
 /* A leaf's blocks. True if the best hit became better. */
-__attribute__((always_inline)) static inline bool
-test_blocks(const struct leaf_ray *l, struct wide_fast *f, const struct wide_block *b, bool any)
+__attribute__((always_inline)) static inline bool test_blocks(struct wide_fast *f,
+                                                              const struct wide_block *b, bool any)
 {
     bool better = false;
+    if (!f->comes_to_leaves) {
+        leaf_ray_from(&f->leaf, f->caller);
+        f->comes_to_leaves = true;
+    }
     for (;; b = wide_next_block(b)) {
         f->tests += b->count;
-        better |= leaf_test(l, f, b, any);
+        better |= leaf_test(f, b, any);
         if (b->last || (any && better))
             return better;
     }
@@ -139,23 +143,22 @@ __attribute__((always_inline)) static inline enum wide_answer
 walk_closest(const accel *a, const struct wide *w, const accel_ray *ray, struct wide_fast *f)
 {
     waiting stack[WIDE_MAX_DEPTH * (WIDE - 1) + 2], *top = stack;
-    _Alignas(64) float begin[WIDE];
     if (!begin_fast(f, a, w, ray))
         return WIDE_ANY_OTHER_WAY;
     float limit = wide_limit(&f->ray, f->tmax);
     struct node_ray n = node_ray_from(&f->ray, limit);
-    const struct leaf_ray l = leaf_ray_from(&f->ray);
     uint32_t word = w->root;
     for (;;) {
         while (!(word & WIDE_LEAF)) {
             const struct wide_node *node = wide_node_at(w, word);
-            const uint32_t meets = node_meets(&n, node, begin);
+            begins begin;
+            const uint32_t meets = node_meets(&n, node, &begin);
             f->nodes++;
             if (meets == 0)
                 goto next;
-            word = descend(w, node, meets, begin, &top);
+            word = descend(w, node, meets, &begin, &top);
         }
-        if (test_blocks(&l, f, wide_leaf_at(w, word), false)) {
+        if (test_blocks(f, wide_leaf_at(w, word), false)) {
             limit = wide_limit(&f->ray, f->best);
             node_ray_limit(&n, limit);
         }
@@ -168,29 +171,38 @@ walk_closest(const accel *a, const struct wide *w, const accel_ray *ray, struct 
     }
 }
 
-/* Any hit: no order but that of the children, whose last one is the largest; the limit stays. */
+/* Any hit: no order but that of the children, whose last one is taken first; the limit stays. At
+ * the bottom of the stack lies a word that is never taken, so that there is always one to expect.
+ */
 __attribute__((always_inline)) static inline enum wide_answer
 walk_any(const accel *a, const struct wide *w, const accel_ray *ray, struct wide_fast *f)
 {
-    uint32_t stack[WIDE_MAX_DEPTH * (WIDE - 1) + WIDE + 1], *top = stack;
-    _Alignas(64) float begin[WIDE];
+    uint32_t stack[WIDE_MAX_DEPTH * (WIDE - 1) + WIDE + 1], *top = stack, word = w->root;
     if (!begin_fast(f, a, w, ray))
         return WIDE_ANY_OTHER_WAY;
     const struct node_ray n = node_ray_from(&f->ray, wide_limit(&f->ray, f->tmax));
-    const struct leaf_ray l = leaf_ray_from(&f->ray);
-    *top++ = w->root;
-    while (top > stack) {
-        const uint32_t word = *--top;
-        if (word & WIDE_LEAF) {
-            if (test_blocks(&l, f, wide_leaf_at(w, word), true))
-                return WIDE_HIT;
-            continue;
+    *top++ = word;
+    for (;;) {
+        while (!(word & WIDE_LEAF)) {
+            const struct wide_node *node = wide_node_at(w, word);
+            begins begin;
+            const uint32_t meets = node_meets(&n, node, &begin);
+            f->nodes++;
+            if (meets == 0)
+                goto next;
+            const uint32_t last = 31 - (uint32_t)__builtin_clz(meets);
+            word = node->child[last];
+            expect(w, word);
+            top = push_children(top, meets ^ 1u << last, node);
+            expect(w, top[-1]);
         }
-        const struct wide_node *node = wide_node_at(w, word);
-        f->nodes++;
-        top = push_children(top, node_meets(&n, node, begin), node);
+        if (test_blocks(f, wide_leaf_at(w, word), true))
+            return WIDE_HIT;
+    next:
+        word = *--top;
+        if (top == stack)
+            return WIDE_MISSED;
     }
-    return WIDE_MISSED;
 }
 
 static enum wide_answer closest(const accel *a, const struct wide *w, const accel_ray *ray,
@@ -227,7 +239,6 @@ static inline float query_end(const struct wide_ray *r, const struct query *q)
 static bool walk(const struct wide *w, struct query *q)
 {
     waiting stack[WIDE_MAX_DEPTH * (WIDE - 1) + 2], *top = stack;
-    _Alignas(64) float begin[WIDE];
     struct wide_ray ray;
     if (q->point || !wide_ray_from(&ray, w, q->org, q->dir, q->begin))
         return false;
@@ -237,11 +248,12 @@ static bool walk(const struct wide *w, struct query *q)
     for (;;) {
         while (!(word & WIDE_LEAF)) {
             const struct wide_node *node = wide_node_at(w, word);
-            const uint32_t meets = node_meets(&n, node, begin);
+            begins begin;
+            const uint32_t meets = node_meets(&n, node, &begin);
             q->nodes++;
             if (meets == 0)
                 goto next;
-            word = descend(w, node, meets, begin, &top);
+            word = descend(w, node, meets, &begin, &top);
         }
         accel_wide_test_leaf(w, q, word);
         if (query_done(q))

@@ -38,14 +38,16 @@ extern const struct wide_isa accel_wide_portable;
 /* A closest or any query over triangles under way. */
 struct wide_fast {
     struct wide_ray ray;
+    struct leaf_ray leaf;
     const accel *a;
     const accel_ray *caller;
     double tmin, tmax;
-    uint32_t skip; /* id, or ACCEL_NONE */
-    double best;   /* key of the best hit so far, infinity without one */
-    double u, v;   /* its weights */
-    uint32_t id;   /* its triangle; ACCEL_NONE without one */
-    bool prepared; /* q is */
+    uint32_t skip;        /* id, or ACCEL_NONE */
+    double best;          /* key of the best hit so far, infinity without one */
+    double u, v;          /* its weights */
+    uint32_t id;          /* its triangle; ACCEL_NONE without one */
+    bool comes_to_leaves; /* `leaf` is made */
+    bool prepared;        /* q is */
     uint64_t nodes, tests;
     struct query q; /* for what goes the whole way */
 };

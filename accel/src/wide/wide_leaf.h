@@ -2,7 +2,7 @@
  *
  * Several triangles of a block at once, in double: the test of triangle.c, operation by operation
  * in the same order, so that what a lane computes has the same bits. Included by the file of an
- * instruction set after `lanes`, LANES of doubles, their operations, and struct leaf_ray.
+ * instruction set after `lanes`, LANES of doubles, and their operations.
  *
  * Lemma "no clamp". The rule of query.h clamps t into S(P'). Let v = 2^-53, C the largest
  * |coordinate| of a triangle, L the longest side of its box, D = 8 C. If
@@ -37,9 +37,9 @@ struct corners {
 static inline void shear_corner(const struct leaf_ray *l, lanes px, lanes py, lanes pz,
                                 struct corners *c, uint32_t i)
 {
-    const lanes z = lanes_sub(pz, l->org[2]);
-    c->x[i] = lanes_sub(lanes_sub(px, l->org[0]), lanes_mul(l->shear[0], z));
-    c->y[i] = lanes_sub(lanes_sub(py, l->org[1]), lanes_mul(l->shear[1], z));
+    const lanes z = lanes_sub(pz, lanes_all(l->org[2]));
+    c->x[i] = lanes_sub(lanes_sub(px, lanes_all(l->org[0])), lanes_mul(lanes_all(l->shear[0]), z));
+    c->y[i] = lanes_sub(lanes_sub(py, lanes_all(l->org[1])), lanes_mul(lanes_all(l->shear[1]), z));
     c->z[i] = z;
 }
 
@@ -57,10 +57,12 @@ static inline bool take(struct wide_fast *f, double t, uint32_t id, const double
 }
 
 /* The triangles of a block from the `from`-th on. True if the best hit became better. */
-__attribute__((always_inline)) static inline bool
-test_lanes(const struct leaf_ray *l, struct wide_fast *f, const struct wide_block *b,
-           const struct corners *c, uint32_t from, bool any)
+__attribute__((always_inline)) static inline bool test_lanes(struct wide_fast *f,
+                                                             const struct wide_block *b,
+                                                             const struct corners *c, uint32_t from,
+                                                             bool any)
 {
+    const struct leaf_ray *l = &f->leaf;
     const lanes *x = c->x, *y = c->y;
     const lanes e0 = lanes_sub(lanes_mul(x[2], y[1]), lanes_mul(y[2], x[1]));
     const lanes e1 = lanes_sub(lanes_mul(x[0], y[2]), lanes_mul(y[0], x[2]));
@@ -73,10 +75,10 @@ test_lanes(const struct leaf_ray *l, struct wide_fast *f, const struct wide_bloc
         (lanes_compare(least, zero, _CMP_GE_OQ) | lanes_compare(most, zero, _CMP_LE_OQ)) & there;
     if (__builtin_expect(hit == 0, 1))
         return false;
-    const lanes det = lanes_add(lanes_add(e0, e1), e2);
-    const lanes scaled = lanes_add(lanes_add(lanes_mul(e0, lanes_mul(l->shear[2], c->z[0])),
-                                             lanes_mul(e1, lanes_mul(l->shear[2], c->z[1]))),
-                                   lanes_mul(e2, lanes_mul(l->shear[2], c->z[2])));
+    const lanes det = lanes_add(lanes_add(e0, e1), e2), shear = lanes_all(l->shear[2]);
+    const lanes scaled = lanes_add(lanes_add(lanes_mul(e0, lanes_mul(shear, c->z[0])),
+                                             lanes_mul(e1, lanes_mul(shear, c->z[1]))),
+                                   lanes_mul(e2, lanes_mul(shear, c->z[2])));
     const lanes t = lanes_div(scaled, det);
     const lanes size = lanes_abs(det), numerator = lanes_abs(scaled);
     const uint32_t strict =
@@ -89,7 +91,7 @@ test_lanes(const struct leaf_ray *l, struct wide_fast *f, const struct wide_bloc
                             lanes_compare(t, lanes_all(f->tmax), _CMP_LT_OQ) &
                             lanes_compare(t, lanes_all(f->best), _CMP_LE_OQ);
     uint32_t decided = strict & safe & large;
-    if (__builtin_expect(!(f->ray.far <= (double)b->far_origin), 0))
+    if (__builtin_expect(!(l->far <= (double)b->far_origin), 0))
         decided = 0;
     uint32_t slow = hit & ~decided;
     hit &= decided & inside;

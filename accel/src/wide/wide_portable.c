@@ -4,6 +4,10 @@
  */
 #include "wide_isa.h"
 
+typedef struct begins {
+    float at[WIDE];
+} begins;
+
 struct node_ray {
     float inverse[3], offset[3], tmin, limit;
     uint32_t near[3]; /* side of the near plane */
@@ -20,17 +24,16 @@ static inline struct node_ray node_ray_from(const struct wide_ray *r, float limi
     for (int k = 0; k < 3; k++) {
         n.inverse[k] = r->inverse[k];
         n.offset[k] = r->offset[k];
-        n.near[k] = r->sign >> k & 1;
+        n.near[k] = r->near[k];
     }
     n.tmin = r->tmin;
     n.limit = limit;
     return n;
 }
 
-static inline uint32_t node_meets(const struct node_ray *n, const struct wide_node *node,
-                                  float begin[WIDE])
+static inline uint32_t node_meets(const struct node_ray *n, const struct wide_node *node, begins *b)
 {
-    float end[WIDE];
+    float end[WIDE], *begin = b->at;
     uint32_t meets = 0;
     for (int i = 0; i < WIDE; i++) {
         begin[i] = n->tmin;
@@ -50,25 +53,16 @@ static inline uint32_t node_meets(const struct node_ray *n, const struct wide_no
     return meets;
 }
 
+static inline void begins_store(const begins *b, uint32_t out[WIDE])
+{
+    memcpy(out, b->at, sizeof b->at);
+}
+
 static inline uint32_t *push_children(uint32_t *top, uint32_t meets, const struct wide_node *node)
 {
     for (; meets != 0; meets &= meets - 1)
         *top++ = node->child[__builtin_ctz(meets)];
     return top;
-}
-
-struct leaf_ray {
-    double org[3], shear[3]; /* along kx, ky, kz */
-};
-
-static inline struct leaf_ray leaf_ray_from(const struct wide_ray *r)
-{
-    struct leaf_ray l;
-    for (int k = 0; k < 3; k++) {
-        l.org[k] = r->org[r->axis[k]];
-        l.shear[k] = r->shear[k];
-    }
-    return l;
 }
 
 static inline double coordinate(const struct wide_block *b, uint32_t i, uint32_t corner,
@@ -81,14 +75,13 @@ static inline double coordinate(const struct wide_block *b, uint32_t i, uint32_t
 }
 
 /* May the triangle be hit? The same edge functions as accel_triangle_hit, in the same order. */
-static inline bool may_hit(const struct leaf_ray *l, const struct wide_fast *f,
-                           const struct wide_block *b, uint32_t i)
+static inline bool may_hit(const struct leaf_ray *l, const struct wide_block *b, uint32_t i)
 {
     double x[3], y[3];
     for (uint32_t c = 0; c < 3; c++) {
-        const double z = coordinate(b, i, c, f->ray.axis[2]) - l->org[2];
-        x[c] = coordinate(b, i, c, f->ray.axis[0]) - l->org[0] - l->shear[0] * z;
-        y[c] = coordinate(b, i, c, f->ray.axis[1]) - l->org[1] - l->shear[1] * z;
+        const double z = coordinate(b, i, c, l->axis[2]) - l->org[2];
+        x[c] = coordinate(b, i, c, l->axis[0]) - l->org[0] - l->shear[0] * z;
+        y[c] = coordinate(b, i, c, l->axis[1]) - l->org[1] - l->shear[1] * z;
     }
     const double e0 = x[2] * y[1] - y[2] * x[1];
     const double e1 = x[0] * y[2] - y[0] * x[2];
@@ -96,12 +89,12 @@ static inline bool may_hit(const struct leaf_ray *l, const struct wide_fast *f,
     return !((e0 < 0 || e1 < 0 || e2 < 0) && (e0 > 0 || e1 > 0 || e2 > 0));
 }
 
-static inline bool leaf_test(const struct leaf_ray *l, struct wide_fast *f,
-                             const struct wide_block *b, bool any)
+static inline bool leaf_test(struct wide_fast *f, const struct wide_block *b, bool any)
 {
+    const struct leaf_ray *l = &f->leaf;
     bool better = false;
     for (uint32_t i = 0; i < b->count && !(any && better); i++)
-        if (may_hit(l, f, b, i))
+        if (may_hit(l, b, i))
             better |= accel_wide_test_slowly(f, b, i);
     return better;
 }
