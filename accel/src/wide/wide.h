@@ -44,20 +44,22 @@ enum wide_type {
     WIDE_POOL,    /* triangles over shared float vertices */
     WIDE_FLOATS,  /* triangles, their own float vertices */
     WIDE_DOUBLES, /* triangles, their own double vertices */
-    WIDE_LIST     /* ids of any primitives, whose data stays where the scene was copied to */
+    WIDE_SPHERES, /* spheres */
+    WIDE_LIST     /* ids of objects */
 };
 
 /* The head of a block. After it:
  * WIDE_POOL: float x[vertices], y[vertices], z[vertices]; uint8_t corner[3][WIDE_BLOCK]; ids
  * WIDE_FLOATS, WIDE_DOUBLES: the coordinates, [3 * corner + axis][count]; ids
+ * WIDE_SPHERES: double x[count], y[count], z[count], r[count]; ids
  * WIDE_LIST: ids
  * where ids is uint32_t[count]. */
 struct wide_block {
     uint8_t type, count, vertices;
     uint8_t last;     /* the leaf ends here */
     uint32_t size;    /* bytes to the next block */
-    float least_det;  /* see wide_leaf.h: smaller determinants go the whole way */
-    float far_origin; /* so do rays from farther away than this */
+    float least_det;  /* triangles, see wide_leaf.h: smaller determinants go the whole way */
+    float far_origin; /* so do rays from farther away than this, to triangles and spheres */
 };
 
 struct wide_isa;
@@ -108,12 +110,21 @@ static inline const uint32_t *wide_block_ids(const struct wide_block *b)
         return (const uint32_t *)(at + 36 * b->count);
     case WIDE_DOUBLES:
         return (const uint32_t *)(at + 72 * b->count);
+    case WIDE_SPHERES:
+        return (const uint32_t *)(at + 32 * b->count);
     }
     return (const uint32_t *)at;
 }
 
 /* The vertices of the i-th triangle of a block: 9 doubles, as primitives keep them. */
 void accel_wide_vertices(const struct wide_block *b, unsigned i, double out[9]);
+
+/* The i-th sphere of a block: x, y, z, r. */
+static inline void wide_sphere(const struct wide_block *b, unsigned i, double out[4])
+{
+    for (unsigned c = 0; c < 4; c++)
+        out[c] = ((const double *)wide_block_data(b))[c * b->count + i];
+}
 
 /* P' of the i-th triangle of a block, with the bits that the build gave it. */
 accel_box accel_wide_triangle_box(const struct wide_block *b, unsigned i);

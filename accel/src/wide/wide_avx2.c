@@ -99,7 +99,7 @@ static inline uint32_t *push_children(uint32_t *top, uint32_t meets, const struc
 static inline __m256d coordinates(const struct wide_block *b, uint32_t row, uint32_t i)
 {
     const size_t place = row * (size_t)b->count + i;
-    if (b->type == WIDE_DOUBLES)
+    if (b->type >= WIDE_DOUBLES)
         return _mm256_loadu_pd((const double *)wide_block_data(b) + place);
     return _mm256_cvtps_pd(_mm_loadu_ps((const float *)wide_block_data(b) + place));
 }
@@ -142,7 +142,24 @@ static inline void lanes_store(double *at, lanes a)
 {
     _mm256_store_pd(at, a);
 }
-#define lanes_compare(a, b, how) ((uint32_t)_mm256_movemask_pd(_mm256_cmp_pd(a, b, how)))
+
+static inline lanes lanes_sqrt(lanes a)
+{
+    return _mm256_sqrt_pd(a);
+}
+/* a, which is not negative, with the sign of b. */
+static inline lanes lanes_with_sign(lanes a, lanes b)
+{
+    return _mm256_or_pd(a, _mm256_and_pd(_mm256_set1_pd(-0.0), b));
+}
+static inline uint32_t lanes_less(lanes a, lanes b)
+{
+    return (uint32_t)_mm256_movemask_pd(_mm256_cmp_pd(a, b, _CMP_LT_OQ));
+}
+static inline uint32_t lanes_at_most(lanes a, lanes b)
+{
+    return (uint32_t)_mm256_movemask_pd(_mm256_cmp_pd(a, b, _CMP_LE_OQ));
+}
 
 #include "wide_leaf.h"
 
@@ -157,14 +174,25 @@ static inline struct corners load_corners(const struct leaf_ray *l, const struct
     return c;
 }
 
+static inline struct spheres load_spheres(const struct wide_block *b, uint32_t from)
+{
+    return (struct spheres){
+        {coordinates(b, 0, from), coordinates(b, 1, from), coordinates(b, 2, from)},
+        coordinates(b, 3, from)};
+}
+
 __attribute__((noinline)) static bool leaf_test(struct wide_fast *f, const struct wide_block *b,
                                                 bool any)
 {
-    const struct leaf_ray *l = &f->leaf;
     bool better = false;
     for (uint32_t i = 0; i < b->count && !(any && better); i += LANES) {
-        const struct corners c = load_corners(l, b, i);
-        better |= test_lanes(f, b, &c, i, any);
+        if (__builtin_expect(b->type >= WIDE_SPHERES, 0)) {
+            const struct spheres s = load_spheres(b, i);
+            better |= test_spheres(f, b, &s, i, any);
+        } else {
+            const struct corners c = load_corners(&f->leaf, b, i);
+            better |= test_triangles(f, b, &c, i, any);
+        }
     }
     return better;
 }

@@ -122,7 +122,24 @@ static inline void lanes_store(double *at, lanes a)
 {
     _mm512_store_pd(at, a);
 }
-#define lanes_compare(a, b, how) ((uint32_t)_mm512_cmp_pd_mask(a, b, how))
+
+static inline lanes lanes_sqrt(lanes a)
+{
+    return _mm512_sqrt_pd(a);
+}
+/* a, which is not negative, with the sign of b. */
+static inline lanes lanes_with_sign(lanes a, lanes b)
+{
+    return _mm512_or_pd(a, _mm512_and_pd(_mm512_set1_pd(-0.0), b));
+}
+static inline uint32_t lanes_less(lanes a, lanes b)
+{
+    return _mm512_cmp_pd_mask(a, b, _CMP_LT_OQ);
+}
+static inline uint32_t lanes_at_most(lanes a, lanes b)
+{
+    return _mm512_cmp_pd_mask(a, b, _CMP_LE_OQ);
+}
 
 #include "wide_leaf.h"
 
@@ -131,7 +148,7 @@ static inline __m512d row(const struct wide_block *b, uint32_t number)
 {
     const size_t place = number * (size_t)b->count;
     const __mmask8 there = (__mmask8)((1u << b->count) - 1);
-    if (b->type == WIDE_DOUBLES)
+    if (b->type >= WIDE_DOUBLES)
         return _mm512_maskz_loadu_pd(there, (const double *)wide_block_data(b) + place);
     return _mm512_cvtps_pd(_mm256_maskz_loadu_ps(there, (const float *)wide_block_data(b) + place));
 }
@@ -190,8 +207,12 @@ __attribute__((always_inline)) static inline bool leaf_test(struct wide_fast *f,
                                                             const struct wide_block *b, bool any)
 {
     const struct leaf_ray *l = &f->leaf;
+    if (__builtin_expect(b->type >= WIDE_SPHERES, 0)) {
+        const struct spheres s = {{row(b, 0), row(b, 1), row(b, 2)}, row(b, 3)};
+        return test_spheres(f, b, &s, 0, any);
+    }
     const struct corners c = b->type == WIDE_POOL ? load_pool(l, b) : load_packed(l, b);
-    return test_lanes(f, b, &c, 0, any);
+    return test_triangles(f, b, &c, 0, any);
 }
 
 #include "wide_fast.h"

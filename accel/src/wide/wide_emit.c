@@ -178,6 +178,37 @@ static uint32_t emit_packed(struct emitter *e, const uint32_t *ids, uint32_t cou
     return n;
 }
 
+/* Widens a block's bounds for the lemma on spheres (wide_leaf.h) to another one. */
+static void bound_sphere(struct wide_block *b, const double *sphere)
+{
+    double coordinate = 0.0;
+    for (int k = 0; k < 3; k++)
+        coordinate = fmax(coordinate, fabs(sphere[k]) + sphere[3]);
+    const double far = 7.0 * coordinate * (1.0 - 0x1p-22);
+    if (!(sphere[3] >= 0x1p-40 * coordinate && far > 0x1p-120))
+        b->far_origin = -1.0f;
+    else if (!(far >= (double)b->far_origin))
+        b->far_origin = (float)far;
+}
+
+static uint32_t emit_spheres(struct emitter *e, const uint32_t *ids, uint32_t count)
+{
+    struct wide_block *b = begin_block(e, WIDE_SPHERES);
+    unsigned char *at = (unsigned char *)(b + 1);
+    const uint32_t n = count < WIDE_BLOCK ? count : WIDE_BLOCK;
+    b->count = (uint8_t)n;
+    for (uint32_t i = 0; i < n; i++) {
+        const struct geometry *g = geometry_of(e, ids[i]);
+        const double *sphere = g->data + 4 * (size_t)(ids[i] - g->first);
+        bound_sphere(b, sphere);
+        for (uint32_t c = 0; c < 4; c++)
+            memcpy(at + sizeof(double) * (c * n + i), &sphere[c], sizeof(double));
+    }
+    memcpy(at + 4 * sizeof(double) * n, ids, n * sizeof *ids);
+    end_block(e, b, (4 * sizeof(double) + sizeof *ids) * n);
+    return n;
+}
+
 static uint32_t emit_list(struct emitter *e, const uint32_t *ids, uint32_t count)
 {
     struct wide_block *b = begin_block(e, WIDE_LIST);
@@ -193,6 +224,8 @@ static uint32_t emit_block(struct emitter *e, const uint32_t *ids, uint32_t coun
 {
     if (type == WIDE_LIST)
         return emit_list(e, ids, count);
+    if (type == WIDE_SPHERES)
+        return emit_spheres(e, ids, count);
     if (type == WIDE_FLOATS && e->rule.pool)
         return emit_pool(e, ids, count);
     return emit_packed(e, ids, count, type == WIDE_FLOATS);
@@ -200,8 +233,9 @@ static uint32_t emit_block(struct emitter *e, const uint32_t *ids, uint32_t coun
 
 static enum wide_type type_of(const struct emitter *e, uint32_t id)
 {
-    if (geometry_of(e, id)->type != ACCEL_TRIANGLES)
-        return WIDE_LIST;
+    const accel_type type = geometry_of(e, id)->type;
+    if (type != ACCEL_TRIANGLES)
+        return type == ACCEL_SPHERES ? WIDE_SPHERES : WIDE_LIST;
     return is_float(triangle(e, id), 9) ? WIDE_FLOATS : WIDE_DOUBLES;
 }
 

@@ -97,8 +97,9 @@ __attribute__((always_inline)) static inline uint32_t descend(const struct wide 
     return (uint32_t) * --*top;
 }
 
+/* Things without bounds come first: they may set the limit. */
 static inline bool begin_fast(struct wide_fast *f, const accel *a, const struct wide *w,
-                              const accel_ray *ray)
+                              const accel_ray *ray, accel_query *counters, bool any)
 {
     if (!wide_ray_from(&f->ray, w, ray->org, ray->dir, ray->tmin) || isnan(ray->tmax))
         return false;
@@ -107,19 +108,26 @@ static inline bool begin_fast(struct wide_fast *f, const accel *a, const struct 
     f->tmin = ray->tmin;
     f->tmax = ray->tmax;
     f->skip = primitives_id(&a->prims, ray->skip);
-    f->best = (double)INFINITY;
+    f->best = f->t = (double)INFINITY;
     f->id = ACCEL_NONE;
+    f->counters = counters;
     f->prepared = f->comes_to_leaves = false;
     f->nodes = f->tests = 0;
+    const size_t unbounded = a->prims.unbounded.count;
+    if (__builtin_expect(unbounded > 0, 0)) {
+        f->tests += unbounded;
+        accel_wide_test_list(f, a->prims.unbounded.at, unbounded, any);
+    }
     return true;
 }
 
-static inline void end_fast(const struct wide_fast *f, accel_query *counters)
+static inline void end_fast(const struct wide_fast *f)
 {
-    if (!counters)
+    if (!f->counters)
         return;
-    counters->nodes += f->nodes;
-    counters->tests += f->tests;
+    f->counters->nodes += f->nodes;
+    f->counters->tests += f->tests;
+    f->counters->outside += f->prepared ? f->q.outside : 0;
 }
 
 /* A leaf's blocks. True if the best hit became better. */
@@ -133,19 +141,23 @@ __attribute__((always_inline)) static inline bool test_blocks(struct wide_fast *
     }
     for (;; b = wide_next_block(b)) {
         f->tests += b->count;
-        better |= leaf_test(f, b, any);
+        if (__builtin_expect(b->type == WIDE_LIST, 0))
+            better |= accel_wide_test_list(f, wide_block_ids(b), b->count, any);
+        else
+            better |= leaf_test(f, b, any);
         if (b->last || (any && better))
             return better;
     }
 }
 
 __attribute__((always_inline)) static inline enum wide_answer
-walk_closest(const accel *a, const struct wide *w, const accel_ray *ray, struct wide_fast *f)
+walk_closest(const accel *a, const struct wide *w, const accel_ray *ray, accel_query *counters,
+             struct wide_fast *f)
 {
     waiting stack[WIDE_MAX_DEPTH * (WIDE - 1) + 2], *top = stack;
-    if (!begin_fast(f, a, w, ray))
+    if (!begin_fast(f, a, w, ray, counters, false))
         return WIDE_ANY_OTHER_WAY;
-    float limit = wide_limit(&f->ray, f->tmax);
+    float limit = wide_limit(&f->ray, f->best < f->tmax ? f->best : f->tmax);
     struct node_ray n = node_ray_from(&f->ray, limit);
     uint32_t word = w->root;
     for (;;) {
@@ -159,7 +171,7 @@ walk_closest(const accel *a, const struct wide *w, const accel_ray *ray, struct 
             word = descend(w, node, meets, &begin, &top);
         }
         if (test_blocks(f, wide_leaf_at(w, word), false)) {
-            limit = wide_limit(&f->ray, f->best);
+            limit = wide_limit(&f->ray, f->best < f->tmax ? f->best : f->tmax);
             node_ray_limit(&n, limit);
         }
     next:
@@ -175,11 +187,14 @@ walk_closest(const accel *a, const struct wide *w, const accel_ray *ray, struct 
  * the bottom of the stack lies a word that is never taken, so that there is always one to expect.
  */
 __attribute__((always_inline)) static inline enum wide_answer
-walk_any(const accel *a, const struct wide *w, const accel_ray *ray, struct wide_fast *f)
+walk_any(const accel *a, const struct wide *w, const accel_ray *ray, accel_query *counters,
+         struct wide_fast *f)
 {
     uint32_t stack[WIDE_MAX_DEPTH * (WIDE - 1) + WIDE + 1], *top = stack, word = w->root;
-    if (!begin_fast(f, a, w, ray))
+    if (!begin_fast(f, a, w, ray, counters, true))
         return WIDE_ANY_OTHER_WAY;
+    if (__builtin_expect(f->id != ACCEL_NONE, 0))
+        return WIDE_HIT;
     const struct node_ray n = node_ray_from(&f->ray, wide_limit(&f->ray, f->tmax));
     *top++ = word;
     for (;;) {
@@ -209,13 +224,13 @@ static enum wide_answer closest(const accel *a, const struct wide *w, const acce
                                 accel_hit *hit, accel_query *counters)
 {
     struct wide_fast f;
-    const enum wide_answer answer = walk_closest(a, w, ray, &f);
+    const enum wide_answer answer = walk_closest(a, w, ray, counters, &f);
     if (answer == WIDE_ANY_OTHER_WAY)
         return answer;
-    end_fast(&f, counters);
+    end_fast(&f);
     if (answer == WIDE_HIT && hit) {
         const accel_id name = primitives_name(&a->prims, f.id);
-        *hit = (accel_hit){f.best, f.u, f.v, name.geom, name.prim};
+        *hit = (accel_hit){f.t, f.u, f.v, name.geom, name.prim};
     }
     return answer;
 }
@@ -224,9 +239,9 @@ static enum wide_answer any(const accel *a, const struct wide *w, const accel_ra
                             accel_query *counters)
 {
     struct wide_fast f;
-    const enum wide_answer answer = walk_any(a, w, ray, &f);
+    const enum wide_answer answer = walk_any(a, w, ray, counters, &f);
     if (answer != WIDE_ANY_OTHER_WAY)
-        end_fast(&f, counters);
+        end_fast(&f);
     return answer;
 }
 

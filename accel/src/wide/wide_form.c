@@ -23,11 +23,10 @@ static const struct wide_isa *choose_isa(struct build *build, double option)
 }
 
 /* Keeps nothing of the scene that the leaves hold. */
-static void leave(struct build *build, const struct wide *w)
+static void leave(struct build *build)
 {
     struct memory *m = &build->a->memory;
     const size_t before = m->bytes;
-    build->a->fast = w;
     accel_primitives_leave(m, &build->a->prims);
     accel_build_left_out(
         build, before - m->bytes, before,
@@ -48,8 +47,9 @@ bool accel_wide_form_build(struct build *build, struct wide *w, const double *is
     if (w->nodes == 0)
         accel_build_left_out(build, sizeof(struct wide_node), w->bytes,
                              "few primitives: a leaf, no tree");
+    build->a->fast = w->fast ? w : NULL;
     if (w->fast && p->only_triangles && p->unbounded.count == 0)
-        leave(build, w);
+        leave(build);
     return true;
 }
 

@@ -29,8 +29,12 @@ enum { BINS = 32, SWEEP = 8, LEAF = 8, TICK = 16384, TICK_LEAF = 8 };
  */
 enum { ALL_AXES = 7, CLUSTER_DEPTH = 48 };
 
-/* What a leaf costs beside its tests, in units of one test of all lanes. */
-#define LEAF_COST 0.3f
+/* What a leaf costs beside its tests, that of spheres in all lanes, and that of an object, which
+ * has none beside it: its box is asked, then its host; in units of testing triangles in all lanes.
+ */
+#define LEAF_COST    0.3f
+#define SPHERES_COST 1.5f
+#define OBJECT_COST  4.0f
 
 struct bounds {
     float lo[4], hi[4]; /* the fourth is not used: four are added as fast as three */
@@ -277,10 +281,29 @@ static void cut_small(const struct range *r, struct cut *cut)
 
 /* ------------------------------------------------------------------------- what it costs ---- */
 
-static float leaf_cost(const struct grower *g, uint32_t count)
+static accel_type type_of(const struct grower *g, uint32_t id)
 {
-    const uint32_t lanes = g->rule.lanes;
-    return count <= LEAF ? LEAF_COST + (float)((count + lanes - 1) / lanes) : (float)INFINITY;
+    return primitives_geometry(&g->build->a->prims, id)->type;
+}
+
+static float in_lanes(const struct grower *g, uint32_t count)
+{
+    return (float)((count + g->rule.lanes - 1) / g->rule.lanes);
+}
+
+/* Of some items as one leaf. */
+static float leaf_cost(const struct grower *g, const struct wide_item *at, uint32_t count)
+{
+    uint32_t spheres = 0, objects = 0;
+    if (count > LEAF)
+        return (float)INFINITY;
+    for (uint32_t i = 0; i < count && !g->build->a->prims.only_triangles; i++) {
+        const accel_type type = type_of(g, at[i].id);
+        spheres += type == ACCEL_SPHERES;
+        objects += type == ACCEL_OBJECTS;
+    }
+    return LEAF_COST + in_lanes(g, count - spheres - objects) +
+           SPHERES_COST * in_lanes(g, spheres) + OBJECT_COST * (float)objects;
 }
 
 /* The cheapest sharing of `slots` slots between the sides. */
@@ -304,7 +327,7 @@ static uint8_t share(const struct costs side[2], uint32_t slots, float *least)
 static void join(const struct grower *g, struct wide_binary *node, float surface,
                  const struct costs side[2], struct costs *out)
 {
-    const float leaf = surface * leaf_cost(g, node->count);
+    const float leaf = surface * leaf_cost(g, g->tree->items + node->first, node->count);
     const uint32_t slots = side[0].slots + side[1].slots;
     float shared = 0.0f;
     out->slots = slots < WIDE ? slots : WIDE;
@@ -392,7 +415,7 @@ static bool grow(struct grower *g, uint32_t first, uint32_t count, uint32_t plac
         return false;
     set_node(node, &r.box, first, count);
     if (count == 1) {
-        *out = (struct costs){.as[1] = area(&r.box) * leaf_cost(g, 1), .slots = 1};
+        *out = (struct costs){.as[1] = area(&r.box) * leaf_cost(g, r.at, 1), .slots = 1};
         return tick(g, r.at, TICK_LEAF);
     }
     r.limit = most_items(WIDE_MAX_DEPTH - depth - 1);

@@ -20,7 +20,6 @@ struct wide_isa {
     const char *name;
     bool (*works_here)(void); /* does the processor have it? */
     struct wide_rule rule;    /* what its leaves look like */
-    /* Only where there is nothing but bounded triangles. */
     enum wide_answer (*closest)(const accel *a, const struct wide *w, const accel_ray *ray,
                                 accel_hit *hit, accel_query *counters);
     enum wide_answer (*any)(const accel *a, const struct wide *w, const accel_ray *ray,
@@ -35,7 +34,7 @@ struct wide_isa {
 extern const struct wide_isa *const accel_wide_isas[];
 extern const struct wide_isa accel_wide_portable;
 
-/* A closest or any query over triangles under way. */
+/* A closest or any query under way. */
 struct wide_fast {
     struct wide_ray ray;
     struct leaf_ray leaf;
@@ -44,15 +43,23 @@ struct wide_fast {
     double tmin, tmax;
     uint32_t skip;        /* id, or ACCEL_NONE */
     double best;          /* key of the best hit so far, infinity without one */
+    double t;             /* of it: the key, but for hits that a host reports */
     double u, v;          /* its weights */
-    uint32_t id;          /* its triangle; ACCEL_NONE without one */
+    uint32_t id;          /* its primitive; ACCEL_NONE without one */
     bool comes_to_leaves; /* `leaf` is made */
     bool prepared;        /* q is */
     uint64_t nodes, tests;
-    struct query q; /* for what goes the whole way */
+    accel_query *counters; /* the caller's, or NULL */
+    struct query q;        /* for what goes the whole way */
+    struct found found;    /* its one hit */
+    uint16_t order;
 };
 
-/* The i-th triangle of a block by the whole rule of query.h. True if it is the best hit so far. */
+/* The i-th triangle or sphere of a block by the whole rule of query.h. True if it is the best hit
+ * so far. */
 bool accel_wide_test_slowly(struct wide_fast *f, const struct wide_block *b, unsigned i);
+
+/* Any primitives by that rule. True if the best hit became better. */
+bool accel_wide_test_list(struct wide_fast *f, const uint32_t *ids, size_t count, bool any);
 
 #endif

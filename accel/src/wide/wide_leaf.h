@@ -30,6 +30,12 @@
  * to any term, and by 2. C is at least 2^-455.
  */
 
+/* Which lanes hold something of a block, from the `from`-th on. */
+static inline uint32_t lanes_there(const struct wide_block *b, uint32_t from)
+{
+    return b->count - from < LANES ? (1u << (b->count - from)) - 1 : (1u << LANES) - 1;
+}
+
 struct corners {
     lanes x[3], y[3], z[3]; /* sheared, as struct sheared in triangle.c */
 };
@@ -49,7 +55,7 @@ static inline bool take(struct wide_fast *f, double t, uint32_t id, const double
 {
     if (id == f->skip || t > f->best || (t == f->best && id >= f->id))
         return false;
-    f->best = t;
+    f->best = f->t = t;
     f->id = id;
     f->u = e1[lane] / det[lane];
     f->v = e2[lane] / det[lane];
@@ -57,10 +63,10 @@ static inline bool take(struct wide_fast *f, double t, uint32_t id, const double
 }
 
 /* The triangles of a block from the `from`-th on. True if the best hit became better. */
-__attribute__((always_inline)) static inline bool test_lanes(struct wide_fast *f,
-                                                             const struct wide_block *b,
-                                                             const struct corners *c, uint32_t from,
-                                                             bool any)
+__attribute__((always_inline)) static inline bool test_triangles(struct wide_fast *f,
+                                                                 const struct wide_block *b,
+                                                                 const struct corners *c,
+                                                                 uint32_t from, bool any)
 {
     const struct leaf_ray *l = &f->leaf;
     const lanes *x = c->x, *y = c->y;
@@ -69,10 +75,8 @@ __attribute__((always_inline)) static inline bool test_lanes(struct wide_fast *f
     const lanes e2 = lanes_sub(lanes_mul(x[1], y[0]), lanes_mul(y[1], x[0]));
     const lanes least = lanes_min(lanes_min(e0, e1), e2), most = lanes_max(lanes_max(e0, e1), e2);
     const lanes zero = lanes_all(0.0);
-    const uint32_t there =
-        b->count - from < LANES ? (1u << (b->count - from)) - 1 : (1u << LANES) - 1;
-    uint32_t hit =
-        (lanes_compare(least, zero, _CMP_GE_OQ) | lanes_compare(most, zero, _CMP_LE_OQ)) & there;
+    const uint32_t there = lanes_there(b, from);
+    uint32_t hit = (lanes_at_most(zero, least) | lanes_at_most(most, zero)) & there;
     if (__builtin_expect(hit == 0, 1))
         return false;
     const lanes det = lanes_add(lanes_add(e0, e1), e2), shear = lanes_all(l->shear[2]);
@@ -81,15 +85,12 @@ __attribute__((always_inline)) static inline bool test_lanes(struct wide_fast *f
                                    lanes_mul(e2, lanes_mul(shear, c->z[2])));
     const lanes t = lanes_div(scaled, det);
     const lanes size = lanes_abs(det), numerator = lanes_abs(scaled);
-    const uint32_t strict =
-        lanes_compare(least, zero, _CMP_GT_OQ) | lanes_compare(most, zero, _CMP_LT_OQ);
-    const uint32_t safe =
-        lanes_compare(lanes_min(size, numerator), lanes_all(0x1p-900), _CMP_GT_OQ) &
-        lanes_compare(lanes_max(size, numerator), lanes_all(0x1p900), _CMP_LT_OQ);
-    const uint32_t large = lanes_compare(size, lanes_all((double)b->least_det), _CMP_GE_OQ);
-    const uint32_t inside = lanes_compare(t, lanes_all(f->tmin), _CMP_GT_OQ) &
-                            lanes_compare(t, lanes_all(f->tmax), _CMP_LT_OQ) &
-                            lanes_compare(t, lanes_all(f->best), _CMP_LE_OQ);
+    const uint32_t strict = lanes_less(zero, least) | lanes_less(most, zero);
+    const uint32_t safe = lanes_less(lanes_all(0x1p-900), lanes_min(size, numerator)) &
+                          lanes_less(lanes_max(size, numerator), lanes_all(0x1p900));
+    const uint32_t large = lanes_at_most(lanes_all((double)b->least_det), size);
+    const uint32_t inside = lanes_less(lanes_all(f->tmin), t) & lanes_less(t, lanes_all(f->tmax)) &
+                            lanes_at_most(t, lanes_all(f->best));
     uint32_t decided = strict & safe & large;
     if (__builtin_expect(!(l->far <= (double)b->far_origin), 0))
         decided = 0;
@@ -109,6 +110,107 @@ __attribute__((always_inline)) static inline bool test_lanes(struct wide_fast *f
         }
     }
     for (; __builtin_expect(slow != 0, 0) && !(any && better); slow &= slow - 1)
+        better |= accel_wide_test_slowly(f, b, from + (uint32_t)__builtin_ctz(slow));
+    return better;
+}
+
+/* Several spheres of a block: the roots of sphere.c, operation by operation.
+ *
+ * Lemma "no clamp" of spheres. With C the largest |coordinate| of a sphere's box, r its radius, if
+ * 1. r^2 - n^2, the discriminant as computed, is not negative, and all squares are in sphere.c's
+ *    safe range,
+ * 2. |org| <= 7 C on every axis, and r >= 2^-40 C,
+ * 3. root^2 >= 2^-44 r^2 a, for the root with which c is divided,
+ * then both t lie in S(P') before that is cut to (tmin, tmax): what matters of the sphere is the
+ * first t inside, as it is.
+ *
+ * Let F = org - centre, |F| <= 13.9 C in space, f the same as computed, N the point of the line
+ * that is nearest to the centre, t0 where that is, h^2 = r^2 - n^2. In units of v = 2^-53: the
+ * computed n differs from N by 8 |f| along the line, which enters its square squared only, and by
+ * 3 |f| in any direction. So N^2 + h^2 - r^2 is at most 6 |f| r + 12 r^2, and (11 |f|)^2 v.
+ * - second = root / a lies at t0 +- h but for 13 |f| + 9 r, along the line. A point that lies e
+ *   farther along it than the surface leaves that by at most e h / r + e^2 / 2r: in all, with h <=
+ *   r, 3 |f| + 6 r + 13 |f| + 9 r <= 238 C, and 4 C of squares, as r >= 2^-40 C.
+ * - first = c / root. As root times (b -+ s) / a differs from c by at most 10 |f|^2 + 4 |f| r + 12
+ *   r^2 (of c 4 |f|^2 + 2 r^2, of b^2 6 |f|^2, of a n^2 4 |f| r + 4 r^2, of a h^2 6 r^2), first
+ *   differs from it by that over |root| / |dir|, which is at least h, and if |f| > 2 r at least
+ *   0.86 |f|: then by 18 |f|, else off the surface by (20 + 4 + 12 / 2) |f|, less than 61 C; and by
+ *   2 |f|, 4 |f| + 3 r for b and s, 3 |f| + 6 r as above: in all less than 386 C. Its square over
+ *   2 r is at most 4 C by 3.
+ * P' begins 512 C before the sphere, but for 3 C by which the box is rounded; what the slabs are
+ * rounded by is less than the growth of S. */
+struct spheres {
+    lanes centre[3], radius;
+};
+
+/* The lane with the sphere that the ray leaves, which has a rule of its own: see sphere.c. */
+static inline uint32_t lanes_left(const struct wide_fast *f, const uint32_t *ids, uint32_t there)
+{
+    uint32_t left = 0;
+    for (uint32_t i = 0; f->skip != ACCEL_NONE && there >> i != 0; i++)
+        left |= (uint32_t)(ids[i] == f->skip) << i;
+    return left;
+}
+
+static inline bool take_sphere(struct wide_fast *f, const double t[2], uint32_t id)
+{
+    const double first = f->tmin < t[0] && t[0] < f->tmax ? t[0] : t[1];
+    if (!(f->tmin < first && first < f->tmax) || first > f->best ||
+        (first == f->best && id >= f->id))
+        return false;
+    f->best = f->t = first;
+    f->id = id;
+    f->u = f->v = 0.0;
+    return true;
+}
+
+__attribute__((always_inline)) static inline bool test_spheres(struct wide_fast *f,
+                                                               const struct wide_block *b,
+                                                               const struct spheres *s,
+                                                               uint32_t from, bool any)
+{
+    const double *org = f->caller->org, *dir = f->caller->dir;
+    const lanes minus = lanes_all(-0.0), r = s->radius, a = lanes_all(f->leaf.square);
+    const lanes f0 = lanes_sub(lanes_all(org[0]), s->centre[0]);
+    const lanes f1 = lanes_sub(lanes_all(org[1]), s->centre[1]);
+    const lanes f2 = lanes_sub(lanes_all(org[2]), s->centre[2]);
+    const lanes d0 = lanes_all(dir[0]), d1 = lanes_all(dir[1]), d2 = lanes_all(dir[2]);
+    const lanes along =
+        lanes_add(lanes_add(lanes_mul(f0, d0), lanes_mul(f1, d1)), lanes_mul(f2, d2));
+    const lanes square =
+        lanes_add(lanes_add(lanes_mul(f0, f0), lanes_mul(f1, f1)), lanes_mul(f2, f2));
+    const lanes rr = lanes_mul(r, r), sum = lanes_add(square, rr);
+    const lanes back = lanes_sub(minus, along), part = lanes_div(back, a);
+    const lanes n0 = lanes_add(f0, lanes_mul(part, d0));
+    const lanes n1 = lanes_add(f1, lanes_mul(part, d1));
+    const lanes n2 = lanes_add(f2, lanes_mul(part, d2));
+    const lanes discriminant = lanes_sub(
+        rr, lanes_add(lanes_add(lanes_mul(n0, n0), lanes_mul(n1, n1)), lanes_mul(n2, n2)));
+    const uint32_t *ids = wide_block_ids(b) + from;
+    const uint32_t all = lanes_there(b, from), left = lanes_left(f, ids, all), there = all & ~left;
+    const uint32_t safe =
+        f->leaf.safe ? lanes_less(lanes_all(0x1p-400), sum) & lanes_less(sum, lanes_all(0x1p400))
+                     : 0;
+    uint32_t hit = lanes_at_most(lanes_all(0.0), discriminant) & safe & there;
+    uint32_t slow = left | (there & ~safe);
+    if (__builtin_expect((hit | slow) == 0, 1))
+        return false;
+    const lanes root =
+        lanes_add(back, lanes_with_sign(lanes_sqrt(lanes_mul(a, discriminant)), back));
+    const lanes one = lanes_div(lanes_sub(square, rr), root), other = lanes_div(root, a);
+    const uint32_t large =
+        lanes_at_most(lanes_mul(lanes_mul(lanes_all(0x1p-44), rr), a), lanes_mul(root, root));
+    const uint32_t decided = f->leaf.far <= (double)b->far_origin ? large : 0;
+    _Alignas(64) double first[LANES], second[LANES];
+    bool better = false;
+    slow |= hit & ~decided;
+    lanes_store(first, lanes_min(one, other));
+    lanes_store(second, lanes_max(one, other));
+    for (hit &= decided; hit && !(any && better); hit &= hit - 1) {
+        const uint32_t i = (uint32_t)__builtin_ctz(hit);
+        better |= take_sphere(f, (const double[2]){first[i], second[i]}, ids[i]);
+    }
+    for (; slow != 0 && !(any && better); slow &= slow - 1)
         better |= accel_wide_test_slowly(f, b, from + (uint32_t)__builtin_ctz(slow));
     return better;
 }

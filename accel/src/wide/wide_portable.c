@@ -65,37 +65,109 @@ static inline uint32_t *push_children(uint32_t *top, uint32_t meets, const struc
     return top;
 }
 
-static inline double coordinate(const struct wide_block *b, uint32_t i, uint32_t corner,
-                                uint32_t axis)
+/* Two lanes, in which gcc and clang see what any processor has. */
+#define LANES 2
+typedef double lanes __attribute__((vector_size(16)));
+typedef int64_t lanes_bits __attribute__((vector_size(16)));
+static inline lanes lanes_sub(lanes a, lanes b)
 {
-    const uint32_t place = (3 * corner + axis) * b->count + i;
-    const void *data = wide_block_data(b);
-    return b->type == WIDE_DOUBLES ? ((const double *)data)[place]
-                                   : (double)((const float *)data)[place];
+    return a - b;
+}
+static inline lanes lanes_mul(lanes a, lanes b)
+{
+    return a * b;
+}
+static inline lanes lanes_add(lanes a, lanes b)
+{
+    return a + b;
+}
+static inline lanes lanes_div(lanes a, lanes b)
+{
+    return a / b;
+}
+static inline lanes lanes_min(lanes a, lanes b)
+{
+    return (lanes){a[0] < b[0] ? a[0] : b[0], a[1] < b[1] ? a[1] : b[1]};
+}
+static inline lanes lanes_max(lanes a, lanes b)
+{
+    return (lanes){a[0] > b[0] ? a[0] : b[0], a[1] > b[1] ? a[1] : b[1]};
+}
+static inline lanes lanes_abs(lanes a)
+{
+    return (lanes)((lanes_bits)a & INT64_MAX);
+}
+static inline lanes lanes_all(double x)
+{
+    return (lanes){x, x};
+}
+static inline void lanes_store(double *at, lanes a)
+{
+    memcpy(at, &a, sizeof a);
+}
+static inline lanes lanes_sqrt(lanes a)
+{
+    return (lanes){sqrt(a[0]), sqrt(a[1])};
+}
+/* a, which is not negative, with the sign of b. */
+static inline lanes lanes_with_sign(lanes a, lanes b)
+{
+    return (lanes)((lanes_bits)a | ((lanes_bits)b & INT64_MIN));
+}
+static inline uint32_t lanes_less(lanes a, lanes b)
+{
+    return (uint32_t)(a[0] < b[0]) | (uint32_t)(a[1] < b[1]) << 1;
+}
+static inline uint32_t lanes_at_most(lanes a, lanes b)
+{
+    return (uint32_t)(a[0] <= b[0]) | (uint32_t)(a[1] <= b[1]) << 1;
 }
 
-/* May the triangle be hit? The same edge functions as accel_triangle_hit, in the same order. */
-static inline bool may_hit(const struct leaf_ray *l, const struct wide_block *b, uint32_t i)
+#include "wide_leaf.h"
+
+/* Two of a row of coordinates, from the i-th on. */
+static inline lanes coordinates(const struct wide_block *b, uint32_t row, uint32_t i)
 {
-    double x[3], y[3];
-    for (uint32_t c = 0; c < 3; c++) {
-        const double z = coordinate(b, i, c, l->axis[2]) - l->org[2];
-        x[c] = coordinate(b, i, c, l->axis[0]) - l->org[0] - l->shear[0] * z;
-        y[c] = coordinate(b, i, c, l->axis[1]) - l->org[1] - l->shear[1] * z;
+    const size_t place = row * (size_t)b->count + i;
+    if (b->type >= WIDE_DOUBLES) {
+        const double *at = (const double *)wide_block_data(b) + place;
+        return (lanes){at[0], at[1]};
     }
-    const double e0 = x[2] * y[1] - y[2] * x[1];
-    const double e1 = x[0] * y[2] - y[0] * x[2];
-    const double e2 = x[1] * y[0] - y[1] * x[0];
-    return !((e0 < 0 || e1 < 0 || e2 < 0) && (e0 > 0 || e1 > 0 || e2 > 0));
+    const float *at = (const float *)wide_block_data(b) + place;
+    return (lanes){(double)at[0], (double)at[1]};
 }
 
-static inline bool leaf_test(struct wide_fast *f, const struct wide_block *b, bool any)
+static inline struct corners load_corners(const struct leaf_ray *l, const struct wide_block *b,
+                                          uint32_t from)
 {
-    const struct leaf_ray *l = &f->leaf;
+    struct corners c;
+    for (uint32_t i = 0; i < 3; i++)
+        shear_corner(l, coordinates(b, 3 * i + l->axis[0], from),
+                     coordinates(b, 3 * i + l->axis[1], from),
+                     coordinates(b, 3 * i + l->axis[2], from), &c, i);
+    return c;
+}
+
+static inline struct spheres load_spheres(const struct wide_block *b, uint32_t from)
+{
+    return (struct spheres){
+        {coordinates(b, 0, from), coordinates(b, 1, from), coordinates(b, 2, from)},
+        coordinates(b, 3, from)};
+}
+
+__attribute__((noinline)) static bool leaf_test(struct wide_fast *f, const struct wide_block *b,
+                                                bool any)
+{
     bool better = false;
-    for (uint32_t i = 0; i < b->count && !(any && better); i++)
-        if (may_hit(l, b, i))
-            better |= accel_wide_test_slowly(f, b, i);
+    for (uint32_t i = 0; i < b->count && !(any && better); i += LANES) {
+        if (b->type >= WIDE_SPHERES) {
+            const struct spheres s = load_spheres(b, i);
+            better |= test_spheres(f, b, &s, i, any);
+        } else {
+            const struct corners c = load_corners(&f->leaf, b, i);
+            better |= test_triangles(f, b, &c, i, any);
+        }
+    }
     return better;
 }
 

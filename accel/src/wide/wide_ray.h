@@ -68,7 +68,9 @@ static inline bool wide_rounds_to_nearest(void)
 struct leaf_ray {
     double org[3], shear[3]; /* along kx, ky, kz: as query.axis, query.shear */
     uint32_t axis[3];
-    double far; /* largest |org| */
+    double far;    /* largest |org| */
+    double square; /* dir . dir */
+    bool safe;     /* as sphere.c has it */
 };
 
 static inline uint64_t wide_bits(double x)
@@ -152,6 +154,8 @@ static inline void leaf_ray_from(struct leaf_ray *l, const accel_ray *ray)
     l->shear[0] = x / z;
     l->shear[1] = y / z;
     l->shear[2] = 1.0 / z;
+    l->square = dir[0] * dir[0] + dir[1] * dir[1] + dir[2] * dir[2];
+    l->safe = l->square > 0x1p-400 && l->square < 0x1p400;
     l->far = wide_larger(wide_larger(fabs(org[0]), fabs(org[1])), fabs(org[2]));
 }
 

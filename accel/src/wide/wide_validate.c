@@ -28,8 +28,8 @@ static bool broken(const struct checker *c, const char *what, uint64_t number)
 
 static accel_box padded_box(const struct checker *c, const struct wide_block *b, unsigned i)
 {
-    return b->type == WIDE_LIST ? c->a->prims.box[wide_block_ids(b)[i]]
-                                : accel_wide_triangle_box(b, i);
+    return b->type >= WIDE_SPHERES ? c->a->prims.box[wide_block_ids(b)[i]]
+                                   : accel_wide_triangle_box(b, i);
 }
 
 /* P', scaled, lies in the box. */
@@ -55,7 +55,7 @@ static bool check_block(struct checker *c, size_t at, const float lo[3], const f
         if (!holds(c, lo, hi, b, i))
             return broken(c, "a leaf's box does not hold primitive", id);
         c->found++;
-        if (b->type != WIDE_LIST) {
+        if (b->type < WIDE_SPHERES) {
             double vertices[9];
             accel_wide_vertices(b, i, vertices);
             c->sum += seal_primitive(id, vertices, 9);
@@ -123,7 +123,7 @@ static bool check_all(struct checker *c)
     if (c->nodes != c->w->nodes || c->found != c->a->prims.bounded.count)
         return broken(c,
                       "primitives are missing or nodes are left over; primitives found:", c->found);
-    return !c->a->fast || c->sum == c->a->prims.data_seal ||
+    return c->a->prims.box || c->sum == c->a->prims.data_seal ||
            broken(c, "other triangles than were copied; of them", c->found);
 }
 

@@ -119,9 +119,9 @@ void accel_wide_test_leaf(const struct wide *w, struct query *q, uint32_t word)
 {
     const struct wide_block *b = wide_leaf_at(w, word);
     for (;; b = wide_next_block(b)) {
-        if (b->type == WIDE_LIST)
+        if (b->type >= WIDE_SPHERES)
             accel_query_test_list(q, wide_block_ids(b), b->count);
-        for (unsigned i = 0; i < b->count && b->type != WIDE_LIST && !query_done(q); i++)
+        for (unsigned i = 0; i < b->count && b->type < WIDE_SPHERES && !query_done(q); i++)
             test_triangle(q, b, i);
         if (b->last || query_done(q))
             return;
