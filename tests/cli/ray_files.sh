@@ -57,6 +57,9 @@ wrong two_headers "2: 'a b c d e f' is no ray" "ox oy oz dx dy dz\na b c d e f\n
 wrong half_header "1: 'ox oy oz 0 0 1' is no ray" "ox oy oz 0 0 1\n$one\n"
 wrong nul "2: '9' is no ray" "$one\n9\x009 9 5 0 0 -1\n"
 wrong words "1: '0.25 0.25 5 0 0 -1 x' is no ray" "$one x\n"
+wrong escape "1: '1 2 ?[31m?3?' is no ray" '1 2 \x1b[31m\x9b3\x7f\n'
+wrong not_utf8 "1: 'é ? ? ?( ??? € ?' is no ray" 'é \xff \xe9 \xc3( \xed\xa0\x80 € \xe2\x80\xae\n'
+wrong cut "1: '$(printf 'é%.0s' {1..39}) ?' is no ray" "$(printf 'é%.0s' {1..39}) é\n"
 wrong none " holds no ray" '# nothing\n\n'
 wrong only_header " holds no ray" 'ox oy oz dx dy dz\n'
 finish

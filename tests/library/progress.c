@@ -5,8 +5,10 @@
  * made. Progress is in 0..1, never falls in a phase, tells what is left of it, and no phase comes
  * twice.
  */
+#define _DEFAULT_SOURCE /* MAP_NORESERVE */
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 #include <time.h>
 
 #include "cmocka_all.h"
@@ -34,7 +36,35 @@ struct watch {
     size_t count;
     const char *wrong; /* NULL, or what */
     double before, told;
+    char *arena, *end; /* addresses for the build's memory, and those not yet taken */
 };
+
+/* ----------------------------------------------------------------- memory ---- */
+
+static const size_t arena_bytes = (size_t)1 << (sizeof(size_t) > 4 ? 33 : 29);
+
+static void open_arena(struct watch *w)
+{
+    w->end = w->arena = mmap(NULL, arena_bytes, PROT_READ | PROT_WRITE,
+                             MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    assert_true(w->arena != MAP_FAILED);
+}
+
+/* Each block lies above those before: what is told depends on none's address. */
+static void *rising(void *user, void *old, size_t from, size_t to)
+{
+    struct watch *w = user;
+    char *block = w->end;
+    if (to == 0)
+        return NULL;
+    w->end += (to + 63) / 64 * 64;
+    assert_true(w->end <= w->arena + arena_bytes);
+    if (old)
+        memcpy(block, old, from < to ? from : to);
+    return block;
+}
+
+/* --------------------------------------------------------------- watching ---- */
 
 static bool watch_progress(void *user, const char *name, double done)
 {
@@ -64,11 +94,13 @@ static bool watch_progress(void *user, const char *name, double done)
 static void watch_build(const struct test_scene *s, const char *name, const char *config)
 {
     struct watch w = {.count = 0};
-    const accel_hooks hooks = {.user = &w, .progress = watch_progress};
+    const accel_hooks hooks = {.user = &w, .resize = rising, .progress = watch_progress};
     accel *a;
     accel_error error;
+    open_arena(&w);
     const accel_status status = accel_build(&a, &s->scene, config, &hooks, &error);
     accel_free(a);
+    munmap(w.arena, arena_bytes);
     if (w.wrong)
         fail_msg("%s on %s, phase '%s': %s (%g, then %g)", config, name, w.phase[w.count - 1].name,
                  w.wrong, w.before, w.told);

@@ -245,7 +245,8 @@ static void test_grow_together(void **state)
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 static const size_t small_stack = 1 << 20;
 #elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) ||                         \
+    __has_feature(memory_sanitizer)
 static const size_t small_stack = 1 << 20;
 #else
 static const size_t small_stack = 128 << 10;

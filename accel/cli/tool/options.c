@@ -6,10 +6,12 @@
 
 #include "words.h"
 
-#include <ctype.h>
+#include <locale.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
+#include <wchar.h>
+#include <wctype.h>
 
 static const struct flag common[] = {
     {"quiet", 'q', NULL, "no progress: results and errors only"},
@@ -23,15 +25,45 @@ struct arguments arguments_start(const struct command *command, int argc, char *
     return (struct arguments){.command = command, .argv = argv, .argc = argc, .at = 1};
 }
 
-/* Prints one line, whatever is in a file's name. */
+/* Characters that end a line or turn the direction of writing. */
+static bool is_layout(wchar_t c)
+{
+    return c == 0x200e || c == 0x200f || (c >= 0x2028 && c <= 0x202e) ||
+           (c >= 0x2066 && c <= 0x2069);
+}
+
+/* What a terminal would obey, and what is no UTF-8 or was cut in two, becomes '?'. */
+static void make_printable(char *text)
+{
+    const locale_t utf8 = newlocale(LC_CTYPE_MASK, "C.UTF-8", (locale_t)0);
+    const locale_t before = utf8 == (locale_t)0 ? utf8 : uselocale(utf8);
+    char *to = text;
+    for (const char *from = text; *from != '\0';) {
+        wchar_t c;
+        const size_t bytes = mbrtowc(&c, from, strlen(from), &(mbstate_t){0});
+        const bool valid = bytes <= strlen(from), shown = valid && iswprint((wint_t)c) != 0;
+        if (shown && !is_layout(c)) {
+            memmove(to, from, bytes);
+            to += bytes;
+        } else {
+            *to++ = '?';
+        }
+        from += valid ? bytes : 1;
+    }
+    *to = '\0';
+    if (utf8 != (locale_t)0) {
+        uselocale(before);
+        freelocale(utf8);
+    }
+}
+
+/* Prints one line, whatever is in a file or its name. */
 __attribute__((format(printf, 3, 0))) static void
 say(const struct command *command, const char *what, const char *format, va_list list)
 {
     char text[1000];
     vsnprintf(text, sizeof text, format, list);
-    for (char *c = text; *c != '\0'; c++) {
-        *c = iscntrl((unsigned char)*c) ? '?' : *c;
-    }
+    make_printable(text);
     fprintf(stderr, "accel %s: %s%s\n", command->name, what, text);
 }
 

@@ -417,7 +417,9 @@ typedef bool accel_visit_hit(void *user, const accel_hit *hit);
  *
  * Allocates nothing: hits are gathered on the stack, the first 32 in one walk, then up to 512 in
  * each, which takes 22 KB of stack. So n hits that lie apart cost a few tests each, and n at one t
- * do (30,000 copies of a triangle: 6 ms). But where n primitives are hit at as many t and every
+ * do. But of n at one t each walk looks at all ids again, n^2 / 512 looks of 0.4 to 4 ns: 30,000
+ * copies of a triangle take 3 to 10 ms, 100,000 take 20 to 70 ms, 1,000,000 take 1 to 7 s, least in
+ * linear and most in bvh, octree and hoo. And where n primitives are hit at as many t and every
  * part of the ray is in the boxes of most, as in spheres within spheres, each walk tests most of
  * them again, n^2 / 512 tests: 30,000 such hits take 50 ms, 300,000 some seconds. A host that needs
  * the first ones only ends the query, or gives a tmax. */

@@ -28,8 +28,11 @@ enum { BSP_LEAF = 3, BSP_AXIS = 3, BSP_LOWER_EMPTY = 4, BSP_UPPER_EMPTY = 8 };
 
 struct bsp_node {
     union {
-        double plane;   /* of an inner node */
-        uint32_t count; /* of a leaf: references, more than 0 */
+        double plane; /* of an inner node */
+        struct {
+            uint32_t count;  /* of a leaf: references, more than 0 */
+            uint32_t unused; /* 0, so that all of a leaf has a value, whatever it is taken for */
+        };
     };
     uint32_t first; /* the node above the plane, or the leaf's first reference */
     uint32_t bits;  /* axis or BSP_LEAF, and which halves are empty */

@@ -60,6 +60,7 @@ struct grower {
 struct range {
     struct wide_item *at;
     uint32_t count;
+    uint32_t first; /* its place in the order of the leaves */
     uint32_t limit; /* most of them that a side of a cut may have */
     float weight;   /* key = lo + weight * hi */
     uint32_t axes;  /* bits: those that it may be cut along */
@@ -115,10 +116,10 @@ static inline float area(const struct bounds *b)
     return x * y + y * z + z * x;
 }
 
-static bool tick(struct grower *g, const struct wide_item *at, uint32_t looked_at)
+/* All before the `first` item is done. */
+static bool tick(struct grower *g, uint32_t first, uint32_t looked_at)
 {
-    const double done = (double)(at - g->tree->items) / (double)g->tree->count;
-    return build_step(g->build, looked_at, done);
+    return build_step(g->build, looked_at, (double)first / (double)g->tree->count);
 }
 
 /* Fills in the boxes. */
@@ -132,7 +133,7 @@ static bool measure(struct grower *g, struct range *r)
             key[k] = b.lo[k] + r->weight * b.hi[k];
         add(&r->box, b.lo, b.hi);
         add(&r->keys, key, key);
-        if (i % TICK == TICK - 1 && !tick(g, r->at, TICK))
+        if (i % TICK == TICK - 1 && !tick(g, r->first, TICK))
             return false;
     }
     return true;
@@ -171,7 +172,7 @@ static bool fill_bins(struct grower *g, const struct range *r)
             add(&bin->box, b.lo, b.hi);
             bin->count++;
         }
-        if (i % TICK == TICK - 1 && !tick(g, r->at, TICK))
+        if (i % TICK == TICK - 1 && !tick(g, r->first, TICK))
             return false;
     }
     return true;
@@ -408,7 +409,8 @@ static bool grow(struct grower *g, uint32_t first, uint32_t count, uint32_t plac
                  uint32_t axes, struct costs *out)
 {
     struct wide_binary *node = &g->tree->nodes[place];
-    struct range r = {.at = g->tree->items + first, .count = count, .weight = 1.0f, .axes = axes};
+    struct range r = {
+        .at = g->tree->items + first, .count = count, .first = first, .weight = 1.0f, .axes = axes};
     struct costs side[2];
     uint32_t left;
     if (!measure(g, &r))
@@ -416,7 +418,7 @@ static bool grow(struct grower *g, uint32_t first, uint32_t count, uint32_t plac
     set_node(node, &r.box, first, count);
     if (count == 1) {
         *out = (struct costs){.as[1] = area(&r.box) * leaf_cost(g, r.at, 1), .slots = 1};
-        return tick(g, r.at, TICK_LEAF);
+        return tick(g, first, TICK_LEAF);
     }
     r.limit = most_items(WIDE_MAX_DEPTH - depth - 1);
     if (!split(g, &r, &left))
@@ -438,7 +440,7 @@ static bool gather(struct grower *g, const uint32_t *ids, uint32_t first, uint32
     struct wide_item *items = g->tree->items + first;
     for (uint32_t i = 0; i < count; i++) {
         items[i] = accel_wide_item_of(g->w, &box[ids[i]], ids[i]);
-        if (i % TICK == TICK - 1 && !tick(g, items, 0))
+        if (i % TICK == TICK - 1 && !tick(g, first, 0))
             return false;
     }
     return true;
@@ -467,7 +469,7 @@ static bool grow_clusters(struct grower *g, struct wide_item *at, uint32_t count
                           uint32_t place, uint32_t depth, struct costs *out)
 {
     struct wide_binary *node = &g->tree->nodes[place];
-    struct range r = {.at = at, .count = count, .weight = 1.0f, .axes = ALL_AXES};
+    struct range r = {.at = at, .count = count, .first = first, .weight = 1.0f, .axes = ALL_AXES};
     struct costs side[2];
     uint32_t left;
     if (count == 1)

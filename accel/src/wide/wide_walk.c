@@ -98,12 +98,9 @@ bool accel_wide_find_box(const struct wide *w, uint32_t id, accel_box *box)
     return find_below(w, w->root, id, box);
 }
 
-static void test_triangle(struct query *q, const struct wide_block *b, unsigned i)
+static void test_triangle(struct query *q, const struct wide_block *b, unsigned i, uint32_t id)
 {
-    const uint32_t id = wide_block_ids(b)[i];
     double vertices[9], t, u, v;
-    if (id == q->skip || !query_may_matter(q, id))
-        return;
     q->tests++;
     accel_wide_vertices(b, i, vertices);
     if (!q->point && !accel_triangle_hit(q, vertices, &t, &u, &v))
@@ -115,14 +112,22 @@ static void test_triangle(struct query *q, const struct wide_block *b, unsigned 
         accel_query_offer(q, &box, id, t, u, v);
 }
 
+static void test_triangles(struct query *q, const struct wide_block *b)
+{
+    const uint32_t *ids = wide_block_ids(b);
+    for (unsigned i = 0; i < b->count && !query_done(q); i++)
+        if (ids[i] != q->skip && query_may_matter(q, ids[i]))
+            test_triangle(q, b, i, ids[i]);
+}
+
 void accel_wide_test_leaf(const struct wide *w, struct query *q, uint32_t word)
 {
     const struct wide_block *b = wide_leaf_at(w, word);
     for (;; b = wide_next_block(b)) {
         if (b->type >= WIDE_SPHERES)
             accel_query_test_list(q, wide_block_ids(b), b->count);
-        for (unsigned i = 0; i < b->count && b->type < WIDE_SPHERES && !query_done(q); i++)
-            test_triangle(q, b, i);
+        else
+            test_triangles(q, b);
         if (b->last || query_done(q))
             return;
     }
