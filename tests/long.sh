@@ -17,12 +17,13 @@ usage: tests/long.sh [STEP]...
   msan     clang with MemorySanitizer: the library, in small
   deep     the library's tests with 5 times the rays
   rays     tests/rays.sh: 50 million rays
+  objects  tests/povray/objects.sh: 3,000 random objects in POV-Ray
 All of them by default. Each is built in a folder of its own, build-NAME; tests/run.sh must have
 built build/. Logs are in build/logs. Ends with 1 if a step fails, after the others have run.
 HELP
 }
 
-all=(clang native subsets asan tsan msan deep rays)
+all=(clang native subsets asan tsan msan deep rays objects)
 
 # The steps' failures are looked at by hand: what calls them, step, turns set -e off.
 
@@ -51,6 +52,7 @@ tsan() { preset tsan; }
 msan() { preset msan; }
 subsets() { "$root/tests/subsets.sh"; }
 rays() { "$root/tests/rays.sh" 50; }
+objects() { "$root/tests/povray/objects.sh" -s 1000 -n 100; }
 deep() { cd "$root" && ctest --preset deep -j "$(nproc)"; }
 
 for name; do

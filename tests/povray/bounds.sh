@@ -74,7 +74,8 @@ mkdir -p "$out"
 cases=("$@")
 [ ${#cases[@]} -gt 0 ] || cases=("$here"/cases/*.pov)
 for file in "${cases[@]}"; do
-    while [ "$(jobs -rp | wc -l)" -ge "$(nproc)" ]; do wait -n || true; done
+    # POV-Ray waits for its own threads more than it computes
+    while [ "$(jobs -rp | wc -l)" -ge $(($(nproc) * 2)) ]; do wait -n || true; done
     (run_case "$(realpath -e "$file")") &
 done
 wait

@@ -129,9 +129,9 @@ run_scene() {
         kind=${kinds[turn]}
         try "stock-$view" "$stock" -MB Declare=View="$view" >>wrong || continue
         message=$(verify "$kind" $view scene.pov)
+        [ $view -gt 0 ] || check_unbounded >>wrong
         if [ -n "$message" ]; then
             echo "$message" >>wrong
-            [ $view -gt 0 ] || check_unbounded >>wrong
             blame "$kind" $view >>wrong
             continue
         fi

@@ -1,3 +1,5 @@
+// red: 1092
+// unbounded: 0
 // Every type of object that is bounded by itself, turned: none is without a box.
 #version 3.7;
 global_settings { assumed_gamma 1 }

@@ -1,3 +1,5 @@
+// red: 1371
+// unbounded: 0
 // What counts of a clip is its inside: planes, inverted clips, clips that are clipped, unions, differences, and clips of a clipped part.
 #version 3.7;
 global_settings { assumed_gamma 1 }

@@ -1,3 +1,5 @@
+// red: 0
+// unbounded: 0
 #version 3.7;
 // N bricks, each with a few holes that are grouped in a union
 global_settings { assumed_gamma 1 }

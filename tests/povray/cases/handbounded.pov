@@ -1,3 +1,7 @@
+// red: 0
+// unbounded: 0
+// options: -UR
+// options: +UR
 #version 3.7;
 // N lenses, each with a fitting bounded_by, as older scenes have them
 global_settings { assumed_gamma 1 }

@@ -1,3 +1,5 @@
+// red: 1080
+// unbounded: 0
 // A height field, half of which a disc cuts off, looked at from above. A plate lies behind it.
 #version 3.7;
 global_settings { assumed_gamma 1 }

@@ -1,3 +1,5 @@
+// red: 148
+// unbounded: 0
 // What is below the water level of a height field counts as inside, however deep: a ball far below one is kept by the intersection.
 #version 3.7;
 global_settings { assumed_gamma 1 }

@@ -1,3 +1,5 @@
+// red: 1550
+// unbounded: 0
 // CSG turned around: a union by `inverse` keeps what is outside all its parts, an intersection what is outside one of them.
 #version 3.7;
 global_settings { assumed_gamma 1 }

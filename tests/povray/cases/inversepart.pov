@@ -1,3 +1,5 @@
+// red: 140
+// unbounded: 0
 // A union with an inverted part inside an intersection: the inside of the union is nearly everything.
 #version 3.7;
 global_settings { assumed_gamma 1 }

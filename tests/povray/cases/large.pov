@@ -1,3 +1,7 @@
+// red: 895
+// unbounded: 0
+// options: -UR
+// options: +UR
 // Large units: volumes over 2e10, sides over 1e6, where POV-Ray's own boxes become infinite.
 #version 3.7;
 global_settings { assumed_gamma 1 }

@@ -1,3 +1,7 @@
+// red: 754
+// unbounded: 0
+// options: -UR
+// options: +UR
 // The body of a light source: clipped by a disc, by an inverted ball, and bounded too narrowly.
 #version 3.7;
 global_settings { assumed_gamma 1 }

@@ -1,3 +1,5 @@
+// red: 2141
+// unbounded: 0
 // Meshes with and without an inside in CSG, as clips and clipped. One is open: what lies behind it counts as inside.
 #version 3.7;
 global_settings { assumed_gamma 1 }

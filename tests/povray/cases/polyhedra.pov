@@ -1,3 +1,5 @@
+// red: 1186
+// unbounded: 0
 // Bodies made of planes and quadrics alone, turned: each has a box although none of its parts has one.
 #version 3.7;
 global_settings { assumed_gamma 1 }

@@ -113,7 +113,7 @@ static int write_lamp(struct writer *w, const struct world *world, int depth, in
     write_text(w, " }");
     *p = write_placement(w, world);
     write_text(w, " }\n");
-    return !reach.surface;
+    return !reach.own.surface;
 }
 
 static int write_group(struct writer *w, const struct world *world, int depth, int wanted,
@@ -152,8 +152,7 @@ static int write_object(struct writer *w, const struct world *world, int number,
     struct reach reach = write_tree(w, depth, wanted, false);
     if (form == LAMP_IN_UNION) {
         write_text(w, " }");
-        reach = (struct reach){.surface = reach.surface,
-                               .clip_outside = true,
+        reach = (struct reach){.own.surface = reach.own.surface,
                                .unbounded_parts = unbounded_objects(&reach),
                                .takes_apart = true};
         write_modifiers(w, &reach, 1);
@@ -161,7 +160,7 @@ static int write_object(struct writer *w, const struct world *world, int number,
     *p = write_placement(w, world);
     write_texture(w);
     write_flags(w);
-    write_target(w, form == TARGET && reach.surface);
+    write_target(w, form == TARGET && reach.own.surface);
     write_text(w, " }\n");
     return unbounded_objects(&reach);
 }
@@ -213,18 +212,24 @@ static void write_head(struct writer *w, const struct world *world, const struct
 static int draw_object(FILE *out, const struct request *request, const struct world *world,
                        int number, struct placement *p)
 {
-    struct writer w = {out, rng_from(request->seed, (uint64_t)number + 1), BUDGET, world->dark};
+    struct writer w = {.out = out,
+                       .rng = rng_from(request->seed, (uint64_t)number + 1),
+                       .budget = BUDGET,
+                       .dark = world->dark};
     /* Shapes take turns over the seeds as well. */
     const uint64_t turn = request->seed * (uint64_t)request->count + (uint64_t)number;
     const int wanted = request->type >= 0 ? request->type : (int)(turn % (uint64_t)shape_count);
 
-    return write_object(&w, world, number, wanted, p);
+    const int unbounded = write_object(&w, world, number, wanted, p);
+
+    return unbounded + w.thin * w.loose;
 }
 
 static bool write_scene(FILE *out, const struct request *request)
 {
     const struct world world = draw_world(request->seed);
-    struct writer head = {out, rng_from(request->seed, RAYS_STREAM), 0, world.dark};
+    struct writer head = {
+        .out = out, .rng = rng_from(request->seed, RAYS_STREAM), .dark = world.dark};
     struct ray_list rays = {NULL, 0, 0};
     struct placement p = {{{0}}};
     int unbounded = 0;

@@ -12,8 +12,8 @@ const struct shape shapes[] = {
     {"superellipsoid", SHAPE_FINITE | SHAPE_SOLID, "superellipsoid { <3 * @r, 3 * @r>", NULL},
     {"ovus", SHAPE_FINITE | SHAPE_SOLID | SHAPE_STURM, NULL, write_ovus},
     {"prism", SHAPE_FINITE | SHAPE_SOLID | SHAPE_STURM, NULL, write_prism},
-    {"lathe", SHAPE_FINITE | SHAPE_SOLID | SHAPE_STURM, NULL, write_lathe},
-    {"sor", SHAPE_FINITE | SHAPE_SOLID | SHAPE_STURM, NULL, write_sor},
+    {"lathe", SHAPE_FINITE | SHAPE_SOLID | SHAPE_STURM | SHAPE_LOOSE, NULL, write_lathe},
+    {"sor", SHAPE_FINITE | SHAPE_SOLID | SHAPE_STURM | SHAPE_LOOSE, NULL, write_sor},
     {"sphere_sweep", SHAPE_FINITE | SHAPE_SOLID, NULL, write_sphere_sweep},
     {"text", SHAPE_FINITE | SHAPE_SOLID, NULL, write_text_object},
     {"blob", SHAPE_FINITE | SHAPE_SOLID | SHAPE_STURM | SHAPE_HIERARCHY, NULL, write_blob},
@@ -30,8 +30,8 @@ const struct shape shapes[] = {
     {"smooth_triangle", SHAPE_FINITE | SHAPE_PATCH, NULL, write_smooth_triangle},
     {"bicubic_patch", SHAPE_FINITE | SHAPE_PATCH, NULL, write_bicubic_patch},
     {"mesh", SHAPE_FINITE | SHAPE_PATCH | SHAPE_HIERARCHY, NULL, write_mesh},
-    {"mesh_closed", SHAPE_FINITE | SHAPE_SOLID | SHAPE_HIERARCHY, NULL, write_mesh_closed},
-    {"mesh2", SHAPE_FINITE | SHAPE_SOLID | SHAPE_HIERARCHY, NULL, write_mesh2},
+    {"mesh_closed", SHAPE_FINITE | SHAPE_HIERARCHY, NULL, write_mesh_closed},
+    {"mesh2", SHAPE_FINITE | SHAPE_HIERARCHY, NULL, write_mesh2},
     {"parametric", SHAPE_FINITE | SHAPE_PATCH,
      "parametric { function { (0.4 + 0.6 * @u + 0.2 * cos(v)) * cos(u) }, "
      "function { @r * sin(v) + 0.1 * u }, function { (0.5 + 0.3 * cos(v)) * sin(u) } "

@@ -3,10 +3,10 @@
  * Every type of object that POV-Ray 3.7 knows, each about as large as the unit sphere.
  *
  * What is left out, and why: `evaluate` of isosurfaces, as POV-Ray's test of such an object changes
- * it, so that its answers depend on how often it was asked. Functions of hypercomplex julia_fractals
- * are left out where there are lights: their bisection looks at other points than their search
- * (Iteration_HCompl_Func takes y for z), a ray has hundreds of hits on one, a shadow ray takes them
- * one by one, for hours.
+ * it, so that its answers depend on how often it was asked. Functions of hypercomplex
+ * julia_fractals are left out where there are lights: their bisection looks at other points than
+ * their search (Iteration_HCompl_Func takes y for z), a ray has hundreds of hits on one, a shadow
+ * ray takes them one by one, for hours.
  */
 #ifndef OBJECTS_SHAPES_H
 #define OBJECTS_SHAPES_H
@@ -14,11 +14,12 @@
 #include "writer.h"
 
 enum shape_trait {
-    SHAPE_FINITE = 1,    /* all of its surface is within some distance */
-    SHAPE_SOLID = 2,     /* and so is what counts as its inside */
-    SHAPE_PATCH = 4,     /* POV-Ray takes it for a patch: it may neither clip nor bound */
-    SHAPE_STURM = 8,     /* takes `sturm` */
-    SHAPE_HIERARCHY = 16 /* takes `hierarchy` */
+    SHAPE_FINITE = 1, /* all of its surface is within some distance */
+    SHAPE_SOLID = 2,  /* and so is what counts as its inside; not of a mesh, which leaks at edges */
+    SHAPE_PATCH = 4,  /* POV-Ray takes it for a patch: it may neither clip nor bound */
+    SHAPE_STURM = 8,  /* takes `sturm` */
+    SHAPE_HIERARCHY = 16, /* takes `hierarchy` */
+    SHAPE_LOOSE = 32 /* POV-Ray finds its hits anywhere if it is thin: it may have no bounds then */
 };
 
 struct shape {

@@ -12,39 +12,27 @@ static const char *const operation_names[OPERATIONS] = {"union", "merge", "inter
 
 /* ---- what is bounded ---- */
 
-static bool inside_is_bounded(const struct reach *r)
-{
-    return r->inside || r->clip_inside;
-}
-
-static bool outside_is_bounded(const struct reach *r)
-{
-    return r->outside && r->clip_outside;
-}
-
-static void swap_flags(bool *a, bool *b)
-{
-    const bool kept = *a;
-    *a = *b;
-    *b = kept;
-}
-
 static void invert_reach(struct reach *r)
 {
-    swap_flags(&r->surface, &r->inverted_surface);
-    swap_flags(&r->inside, &r->outside);
+    const struct extent own = r->own;
+
+    r->own = r->inverse;
+    r->inverse = own;
     r->takes_apart = false;
 }
 
 /* A clip leaves what lies inside it. */
+static void clip_extent(struct extent *e, const struct extent *clip)
+{
+    e->surface = e->surface || clip->inside;
+    e->inside = e->inside || clip->inside;
+    e->outside = e->outside && clip->outside;
+}
+
 static void clip_reach(struct reach *r, const struct reach *clip)
 {
-    const bool inside = inside_is_bounded(clip);
-
-    r->surface = r->surface || inside;
-    r->inverted_surface = r->inverted_surface || inside;
-    r->clip_inside = r->clip_inside || inside;
-    r->clip_outside = r->clip_outside && outside_is_bounded(clip);
+    clip_extent(&r->own, &clip->own);
+    clip_extent(&r->inverse, &clip->own);
     r->clipped = true;
     r->takes_apart = false;
 }
@@ -52,66 +40,73 @@ static void clip_reach(struct reach *r, const struct reach *clip)
 static struct reach reach_of_shape(const struct shape *shape)
 {
     const bool finite = (shape->traits & SHAPE_FINITE) != 0;
+    const bool solid = (shape->traits & SHAPE_SOLID) != 0;
 
-    return (struct reach){.surface = finite,
-                          .inverted_surface = finite,
-                          .inside = (shape->traits & SHAPE_SOLID) != 0,
-                          .clip_outside = true};
+    return (struct reach){.own = {.surface = finite, .inside = solid},
+                          .inverse = {.surface = finite, .outside = solid}};
 }
 
-/* Where each part's surface counts within all others, or outside all others; `inverted`: of the
- * parts inverted. */
-static bool kept_surface(const struct reach *parts, int count, bool within, bool inverted)
+/* Surfaces count where they are inside all other parts of an intersection, outside those of a
+ * merge. */
+static bool is_kept_bounded(const struct extent *parts, int count, int part, bool merge)
 {
+    bool bounded = parts[part].surface;
+
     for (int i = 0; i < count; i++) {
-        bool bounded = inverted ? parts[i].inverted_surface : parts[i].surface;
-        for (int j = 0; j < count; j++) {
-            bounded =
-                bounded ||
-                (j != i && (within ? inside_is_bounded(&parts[j]) : outside_is_bounded(&parts[j])));
-        }
-        if (!bounded) {
-            return false;
-        }
+        bounded = bounded || (i != part && (merge ? parts[i].outside : parts[i].inside));
     }
-    return true;
+    return bounded;
 }
 
-static struct reach reach_of_union(int operation, const struct reach *parts, int count)
+static struct extent extent_of_union(int operation, const struct extent *parts, int count)
 {
-    struct reach r = {.surface = true, .inside = true, .clip_outside = true};
+    struct extent e = {.surface = true, .inside = true};
 
     for (int i = 0; i < count; i++) {
-        r.surface = r.surface && parts[i].surface;
-        r.inside = r.inside && inside_is_bounded(&parts[i]);
-        r.outside = r.outside || outside_is_bounded(&parts[i]);
+        e.surface = e.surface && (operation == MERGE ? is_kept_bounded(parts, count, i, true)
+                                                     : parts[i].surface);
+        e.inside = e.inside && parts[i].inside;
+        e.outside = e.outside || parts[i].outside;
+    }
+    return e;
+}
+
+static struct extent extent_of_intersection(const struct extent *parts, int count)
+{
+    struct extent e = {.surface = true, .outside = true};
+
+    for (int i = 0; i < count; i++) {
+        e.surface = e.surface && is_kept_bounded(parts, count, i, false);
+        e.inside = e.inside || parts[i].inside;
+        e.outside = e.outside && parts[i].outside;
+    }
+    return e;
+}
+
+/* A difference has all parts but the first inverted already. */
+static struct reach reach_of_csg(int operation, const struct reach *parts, int count)
+{
+    struct extent own[PARTS], inverse[PARTS];
+    struct reach r = {.takes_apart = operation == UNION};
+
+    for (int i = 0; i < count; i++) {
+        own[i] = parts[i].own;
+        inverse[i] = parts[i].inverse;
         r.unbounded_parts += unbounded_objects(&parts[i]);
     }
-    if (operation == MERGE) {
-        r.surface = kept_surface(parts, count, false, false);
+    if (operation == UNION || operation == MERGE) {
+        r.own = extent_of_union(operation, own, count);
+        r.inverse = extent_of_intersection(inverse, count);
+    } else {
+        r.own = extent_of_intersection(own, count);
+        r.inverse = extent_of_union(MERGE, inverse, count);
     }
-    r.inverted_surface = kept_surface(parts, count, false, true);
-    r.takes_apart = operation == UNION;
-    return r;
-}
-
-/* An intersection; that of a difference has all parts but the first inverted already. */
-static struct reach reach_of_intersection(const struct reach *parts, int count)
-{
-    struct reach r = {.outside = true, .clip_outside = true};
-
-    for (int i = 0; i < count; i++) {
-        r.inside = r.inside || inside_is_bounded(&parts[i]);
-        r.outside = r.outside && outside_is_bounded(&parts[i]);
-    }
-    r.surface = kept_surface(parts, count, true, false);
-    r.inverted_surface = kept_surface(parts, count, true, true);
     return r;
 }
 
 int unbounded_objects(const struct reach *reach)
 {
-    return reach->takes_apart ? reach->unbounded_parts : !reach->surface;
+    return reach->takes_apart ? reach->unbounded_parts : !reach->own.surface;
 }
 
 /* ---- modifiers ---- */
@@ -142,7 +137,7 @@ static void write_clip(struct writer *w, struct reach *reach, int depth)
         /* The bound clips now; what it is was not kept. */
         write_text(w, " clipped_by { bounded_by }");
         reach->clipped = reach->linked = true;
-        reach->clip_outside = reach->takes_apart = false;
+        reach->own.outside = reach->inverse.outside = reach->takes_apart = false;
         return;
     }
     write_text(w, " clipped_by { ");
@@ -226,6 +221,7 @@ static struct reach write_shape(struct writer *w, int which)
         write_text(w, " hierarchy off");
     }
     w->budget--;
+    w->loose += (shape->traits & SHAPE_LOOSE) != 0;
     written_shapes[which] += w->out != NULL;
     return reach_of_shape(shape);
 }
@@ -254,10 +250,7 @@ static struct reach write_csg(struct writer *w, int depth, int wanted, bool plai
             invert_reach(&parts[i]);
         }
     }
-    if (operation == UNION || operation == MERGE) {
-        return reach_of_union(operation, parts, count);
-    }
-    return reach_of_intersection(parts, count);
+    return reach_of_csg(operation, parts, count);
 }
 
 struct reach write_tree(struct writer *w, int depth, int wanted, bool plain)

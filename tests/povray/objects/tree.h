@@ -8,14 +8,17 @@
 
 #include "writer.h"
 
-/* Which sets of points are known to be bounded. That of the surface changes with `inverse`, as
- * POV-Ray turns a union into an intersection of inverted parts; clips do not change with it. */
+/* Which sets of points are known to be bounded. */
+struct extent {
+    bool surface, inside, outside;
+};
+
+/* Of an object, and of what `inverse` makes of it: POV-Ray turns a union into an intersection of
+ * inverted parts, an intersection into a merge, and leaves clips as they are. */
 struct reach {
-    bool surface, inverted_surface;
-    bool inside, outside;
-    bool clip_inside, clip_outside; /* of the clips together: true and false without any */
-    bool clipped, bounded, linked;  /* linked: clipped_by and bounded_by are one */
-    int unbounded_parts;            /* of a union that POV-Ray takes apart: parts without bounds */
+    struct extent own, inverse;
+    bool clipped, bounded, linked; /* linked: clipped_by and bounded_by are one */
+    int unbounded_parts;           /* of a union that POV-Ray takes apart: parts without bounds */
     bool takes_apart;
 };
 

@@ -106,6 +106,7 @@ struct placement write_placement(struct writer *w, const struct world *world)
         factor[i] = uniform && i > 0 ? factor[0] : scale * rng_range(d, 0.3, 1.2);
     }
     factor[1] *= thin ? 0.003 : 1.0;
+    w->thin += thin;
     factor[2] *= rng_chance(d, 0.1) ? -1.0 : 1.0;
     write_text(w, " scale ");
     write_vector(w, factor);

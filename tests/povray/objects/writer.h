@@ -15,6 +15,8 @@ struct writer {
     struct rng rng;
     int budget; /* shapes that the object may still have */
     bool dark;  /* the scene has no lights */
+    int loose;  /* shapes written with SHAPE_LOOSE */
+    int thin;   /* objects that were flattened */
 };
 
 /* Writes a pattern. Within it,

@@ -9,27 +9,35 @@
  * inverse and some shapes leave it wrong or needlessly infinite. The boxes are
  * composed of those of single shapes, which povaccelshape.cpp finds.
  *
- * Two things are kept apart: where the *hits* of an object may be, and where its
- * *inside* may be, the points for which Inside_Object is true. The inside of an
- * inverted sphere is unbounded, its hits are not. Both regions may be too large,
- * never too small; what is not known is the whole space. The rules:
+ * Three things are kept apart: where the *hits* of an object may be, where its
+ * *inside* may be, the points for which Inside_Object is true, and its *outside*, the
+ * others. The inside of an inverted sphere is unbounded, its hits and its outside are
+ * not. Regions may be too large, never too small; what is not known is the whole
+ * space. The rules:
  *
- * - Union and merge: hits are hits of a part. Inside is inside of some part.
+ * - Union: hits are hits of a part. Inside is inside of some part, outside is outside
+ *   of all.
+ * - Merge: the same, but a hit is also outside all other parts. A part with a flag
+ *   like no_image is not asked by all rays (csg.cpp, Test_Ray_Flags_Shadow): it only
+ *   counts for parts that have the flag as well.
  * - Intersection and difference: a hit is one of a part and inside all others.
- *   Inside is inside of all parts. So where a part has a bounded inside, no other
- *   needs a bounded one: parts that are subtracted are inverted and have none.
+ *   Inside is inside of all parts, outside is outside of some part. So where a part
+ *   has a bounded inside, no other needs a bounded one: parts that are subtracted are
+ *   inverted and have none.
  * - `inverse` of a CSG object turns it around (CSG::Invert, Morph): a union becomes
- *   an intersection of inverted parts, and the other way around. What is met here
+ *   an intersection of inverted parts, and an intersection a merge. What is met here
  *   is the result, so its flag INVERTED_FLAG says nothing more. That of a single
- *   shape makes its inside unbounded (a plane or quadric turns its signs instead).
+ *   shape exchanges inside and outside (a plane or quadric turns its signs instead).
  * - clipped_by: hits and inside are also inside all clips. It is the inside of a clip
  *   that counts: a clip is a cut-off half of space if it is a disc, and everything
  *   if it is inverted. Patches of the type bicubic_patch ignore clips, and light
  *   sources leave them to their looks_like.
  * - bounded_by, kept or removed: the ray has to meet the bound, but the hit may be
  *   anywhere along it. It says nothing.
- * - A light source has hits and inside of its looks_like, without that one's clips
- *   for the inside.
+ * - A light source has hits, inside and outside of its looks_like, without that one's
+ *   clips for the latter two.
+ * - A julia_fractal asks others about points that are not its hits, so others do not
+ *   bound these.
  *
  * It is a derivative work of POV-Ray 3.7.0.10; see LICENSE.
  *******************************************************************************/
@@ -63,26 +71,38 @@ static bool Is_Dark_Light(const ObjectBase *object)
 	return (light != NULL) && light->children.empty();
 }
 
-static void Find_Bounds_Of_Parts(const CompoundObject& compound, const AccelReach& reach, vector<AccelBounds>& parts, VECTOR slack)
+/// The parts of a CSG object that may be met.
+static vector<const ObjectBase *> Lit_Parts(const CompoundObject& compound)
 {
-	Make_Vector(slack, 0.0, 0.0, 0.0);
-	parts.reserve(compound.children.size());
+	vector<const ObjectBase *> parts;
+
 	for(vector<ObjectPtr>::const_iterator child = compound.children.begin(); child != compound.children.end(); child++)
 	{
 		if(Is_Dark_Light(*child) == false)
-		{
-			parts.push_back(AccelBounds());
-			Find_Bounds(*child, reach, parts.back());
-			for(int axis = X; axis <= Z; axis++)
-				slack[axis] = max(slack[axis], parts.back().slack[axis]);
-		}
+			parts.push_back(*child);
+	}
+
+	return parts;
+}
+
+static void Find_Bounds_Of_Parts(const vector<const ObjectBase *>& objects, const AccelReach& reach, vector<AccelBounds>& parts, AccelBounds& bounds)
+{
+	parts.resize(objects.size());
+	bounds.solid = true;
+	for(size_t i = 0; i < objects.size(); i++)
+	{
+		Find_Bounds(objects[i], reach, parts[i]);
+		Include_Box(bounds.strays, parts[i].strays);
+		bounds.solid = bounds.solid && parts[i].solid;
+		for(int axis = X; axis <= Z; axis++)
+			bounds.slack[axis] = max(bounds.slack[axis], parts[i].slack[axis]);
 	}
 }
 
-/// Where a part may be tested for holding a point, that point is wrong by `slack`.
-static AccelRegion Inside_As_Tested(const AccelBounds& part, const VECTOR slack, const AccelReach& reach)
+/// Where a hit may be if it is tested for being there: the point that is tested is wrong by `slack`.
+static AccelRegion As_Tested(const AccelRegion& side, const VECTOR slack, const AccelReach& reach)
 {
-	AccelRegion region(part.inside);
+	AccelRegion region(side);
 	DBL magnitude = MAX_DISTANCE + reach.radius;
 
 	for(int axis = X; axis <= Z; axis++)
@@ -92,35 +112,61 @@ static AccelRegion Inside_As_Tested(const AccelBounds& part, const VECTOR slack,
 	return region;
 }
 
-static void Bound_Union(const CompoundObject& compound, const AccelReach& reach, AccelBounds& bounds)
-{
-	vector<AccelBounds> parts;
-	accel_box hits = Empty_Box(), inside = Empty_Box();
+/// One side of CSG objects: inside or outside.
+typedef AccelRegion AccelBounds::*AccelSide;
 
-	Find_Bounds_Of_Parts(compound, reach, parts, bounds.slack);
-	bounds.solid = true;
-	for(vector<AccelBounds>::const_iterator part = parts.begin(); part != parts.end(); part++)
-	{
-		Include_Box(hits, part->hits.Box());
-		Include_Box(inside, part->inside.Box());
-		bounds.solid = bounds.solid && part->solid;
-	}
-	bounds.hits = AccelRegion(hits);
-	bounds.inside = AccelRegion(inside);
-}
-
-/// Where all parts but one are inside.
-static AccelRegion Inside_Others(const vector<AccelBounds>& parts, vector<AccelBounds>::const_iterator one, const VECTOR slack, const AccelReach& reach)
+/// What is on that side of all parts.
+static AccelRegion Side_Of_All(const vector<AccelBounds>& parts, AccelSide side, const VECTOR slack, const AccelReach& reach)
 {
 	AccelRegion region;
 
 	for(vector<AccelBounds>::const_iterator part = parts.begin(); part != parts.end(); part++)
-	{
-		if(part != one)
-			region.Intersect(Inside_As_Tested(*part, slack, reach));
-	}
+		region.Intersect(As_Tested((*part).*side, slack, reach));
 
 	return region;
+}
+
+/// What is on that side of some part.
+static AccelRegion Side_Of_Some(const vector<AccelBounds>& parts, AccelSide side)
+{
+	accel_box box = Empty_Box();
+
+	for(vector<AccelBounds>::const_iterator part = parts.begin(); part != parts.end(); part++)
+		Include_Box(box, ((*part).*side).Box());
+
+	return AccelRegion(box);
+}
+
+/// Is a part asked by all rays that meet the other?
+static bool Is_Asked_Beside(const ObjectBase *part, const ObjectBase *other)
+{
+	const unsigned int flags = NO_SHADOW_FLAG | NO_IMAGE_FLAG | NO_REFLECTION_FLAG | NO_RADIOSITY_FLAG;
+
+	return (part->Flags & flags & ~other->Flags) == 0;
+}
+
+static void Bound_Union(const CompoundObject& compound, const AccelReach& reach, AccelBounds& bounds)
+{
+	const bool merge = (dynamic_cast<const CSGMerge *>(&compound) != NULL);
+	const vector<const ObjectBase *> objects = Lit_Parts(compound);
+	vector<AccelBounds> parts;
+	accel_box hits = Empty_Box();
+
+	Find_Bounds_Of_Parts(objects, reach, parts, bounds);
+	bounds.inside = Side_Of_Some(parts, &AccelBounds::inside);
+	bounds.outside = Side_Of_All(parts, &AccelBounds::outside, bounds.slack, reach);
+	for(size_t i = 0; i < parts.size(); i++)
+	{
+		AccelRegion region(parts[i].hits);
+
+		for(size_t j = 0; merge && (j < parts.size()); j++)
+		{
+			if((j != i) && !parts[j].outside.IsEverything() && Is_Asked_Beside(objects[j], objects[i]))
+				region.Intersect(As_Tested(parts[j].outside, bounds.slack, reach));
+		}
+		Include_Box(hits, region.Box());
+	}
+	bounds.hits = AccelRegion(hits);
 }
 
 /// A hit on a part whose hits lie in the region of its inside lies in that of all parts.
@@ -129,22 +175,24 @@ static void Bound_Intersection(const CompoundObject& compound, const AccelReach&
 	vector<AccelBounds> parts;
 	accel_box hits = Empty_Box();
 
-	Find_Bounds_Of_Parts(compound, reach, parts, bounds.slack);
-	bounds.solid = true;
-	bounds.inside = Inside_Others(parts, parts.end(), bounds.slack, reach);
+	Find_Bounds_Of_Parts(Lit_Parts(compound), reach, parts, bounds);
+	bounds.inside = Side_Of_All(parts, &AccelBounds::inside, bounds.slack, reach);
+	bounds.outside = Side_Of_Some(parts, &AccelBounds::outside);
 
 	const accel_box inside = bounds.inside.Box();
 
-	for(vector<AccelBounds>::const_iterator part = parts.begin(); part != parts.end(); part++)
+	for(size_t i = 0; i < parts.size(); i++)
 	{
-		AccelRegion region(part->hits);
+		AccelRegion region(parts[i].hits);
 
-		if(part->solid)
+		if(parts[i].solid)
 			Intersect_Box(region.box, inside);
-		else
-			region.Intersect(Inside_Others(parts, part, bounds.slack, reach));
+		for(size_t j = 0; !parts[i].solid && (j < parts.size()); j++)
+		{
+			if(j != i)
+				region.Intersect(As_Tested(parts[j].inside, bounds.slack, reach));
+		}
 		Include_Box(hits, region.Box());
-		bounds.solid = bounds.solid && part->solid;
 	}
 	bounds.hits = AccelRegion(hits);
 }
@@ -167,6 +215,7 @@ static void Find_Own_Bounds(const ObjectBase *object, const AccelReach& reach, A
 		Find_Bounds(compound->children[0], reach, bounds);
 		Find_Own_Bounds(compound->children[0], reach, own);
 		bounds.inside = own.inside;
+		bounds.outside = own.outside;
 	}
 	else
 		bounds = AccelBounds();
@@ -183,11 +232,14 @@ static void Find_Bounds(const ObjectBase *object, const AccelReach& reach, Accel
 
 		Find_Bounds(*clip, reach, clipBounds);
 
-		const AccelRegion region = Inside_As_Tested(clipBounds, bounds.slack, reach);
+		const AccelRegion region = As_Tested(clipBounds.inside, bounds.slack, reach);
+		accel_box outside = bounds.outside.Box();
 
 		if(clipsHits)
 			bounds.hits.Intersect(region);
 		bounds.inside.Intersect(region);
+		Include_Box(outside, clipBounds.outside.Box());
+		bounds.outside = AccelRegion(outside);
 		bounds.solid = bounds.solid && clipsHits;
 	}
 }
@@ -202,6 +254,7 @@ vector<accel_box> Find_Boxes(const vector<ObjectPtr>& objects, const AccelReach&
 
 		Find_Bounds(objects[i], reach, bounds);
 		boxes[i] = bounds.hits.Box();
+		Include_Box(boxes[i], bounds.strays);
 	}
 
 	return boxes;

@@ -80,6 +80,9 @@ class AccelRegion
 
 		/// Is it no more than its box?
 		bool IsBox() const { return halves.empty() && quadrics.empty(); }
+
+		/// Is it the whole space?
+		bool IsEverything() const { return IsBox() && Box_In_Box(Infinite_Box(), box); }
 };
 
 }

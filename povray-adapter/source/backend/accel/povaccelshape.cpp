@@ -51,8 +51,14 @@ namespace pov
 
 void AccelBounds::SetBody(const AccelFrame& frame, const accel_box& box, bool inverted)
 {
+	SetSurface(frame, box);
+	(inverted ? outside : inside) = hits;
+}
+
+void AccelBounds::SetSurface(const AccelFrame& frame, const accel_box& box)
+{
 	hits = AccelRegion(box);
-	inside = inverted ? AccelRegion() : hits;
+	inside = outside = AccelRegion();
 	solid = true;
 	Assign_Vector(slack, frame.slack);
 }
@@ -61,6 +67,7 @@ void AccelBounds::SetPatch(const AccelFrame& frame, const accel_box& box)
 {
 	hits = AccelRegion(box);
 	inside = AccelRegion(Empty_Box());
+	outside = AccelRegion();
 	solid = false;
 	Assign_Vector(slack, frame.slack);
 }
@@ -287,7 +294,10 @@ void Bound_Shape(const Blob& blob, const AccelReach& reach, AccelBounds& bounds)
 	accel_box box = Box_Of_Components(blob, local);
 
 	Grow_Box(box, frame.rounding);
-	bounds.SetBody(frame, frame.ToScene(box), Test_Flag(&blob, INVERTED_FLAG) || (blob.Data->Threshold < 1.0e-5));
+	if(blob.Data->Threshold < 1.0e-5)
+		bounds.SetSurface(frame, frame.ToScene(box));
+	else
+		bounds.SetBody(frame, frame.ToScene(box), Test_Flag(&blob, INVERTED_FLAG));
 }
 
 /*
@@ -300,14 +310,11 @@ void Bound_Shape(const HField& field, const AccelReach& reach, AccelBounds& boun
 	const AccelFrame frame(field.Trans, reach, column);
 
 	bounds.SetBody(frame, Box_Of_Container(frame, field.bounding_corner1, field.bounding_corner2), Test_Flag(&field, INVERTED_FLAG));
-	if(!Test_Flag(&field, INVERTED_FLAG))
-	{
-		column.lo[X] = min(column.lo[X], 0.0);
-		column.lo[Z] = min(column.lo[Z], 0.0);
-		Grow_Box(column, frame.rounding);
-		column.lo[Y] = -HUGE_VAL;
-		Include_Box(bounds.inside.box, frame.ToScene(column));
-	}
+	column.lo[X] = min(column.lo[X], 0.0);
+	column.lo[Z] = min(column.lo[Z], 0.0);
+	Grow_Box(column, frame.rounding);
+	column.lo[Y] = -HUGE_VAL;
+	Include_Box((Test_Flag(&field, INVERTED_FLAG) ? bounds.outside : bounds.inside).box, frame.ToScene(column));
 }
 
 
@@ -322,16 +329,18 @@ void Bound_Shape(const HField& field, const AccelReach& reach, AccelBounds& boun
 void Bound_Shape(const Disc& disc, const AccelReach& reach, AccelBounds& bounds)
 {
 	const DBL radius = sqrt(disc.oradius2) * (1.0 + ldexp(1.0, -48));
-	VECTOR center, radii, normal;
+	VECTOR center, radii, normal, opposite;
 
 	Make_Vector(center, 0.0, 0.0, 0.0);
 	Make_Vector(radii, radius, radius, 0.0);
 	Make_Vector(normal, 0.0, 0.0, Test_Flag(&disc, INVERTED_FLAG) ? -1.0 : 1.0);
+	VScale(opposite, normal, -1.0);
 
 	const AccelFrame frame(disc.Trans, reach, Box_Around(center, radius));
 
-	bounds.SetBody(frame, frame.RoundToScene(center, radii, 0.0), true);
+	bounds.SetSurface(frame, frame.RoundToScene(center, radii, 0.0));
 	frame.AddHalfSpace(bounds.inside, normal, 0.0);
+	frame.AddHalfSpace(bounds.outside, opposite, 0.0);
 }
 
 /// The box of the corners of a flat shape in the scene. Hits lie in the plane up to rounding. An edge test is wrong by the same
@@ -448,14 +457,16 @@ void Bound_Shape(const Mesh& mesh, const AccelReach& reach, AccelBounds& bounds)
 	bounds.SetPatch(frame, frame.ToScene(box));
 	if(mesh.has_inside_vector)
 	{
-		bounds.inside = bounds.hits;
-		bounds.solid = true;
+		bounds.SetBody(frame, bounds.hits.box, Test_Flag(&mesh, INVERTED_FLAG));
+
+		accel_box& body = (Test_Flag(&mesh, INVERTED_FLAG) ? bounds.outside : bounds.inside).box;
+
 		for(int axis = X; axis <= Z; axis++)
 		{
-			if((mesh.Data->Inside_Vect[axis] > 0.0) || Test_Flag(&mesh, INVERTED_FLAG))
-				bounds.inside.box.lo[axis] = -HUGE_VAL;
-			if((mesh.Data->Inside_Vect[axis] < 0.0) || Test_Flag(&mesh, INVERTED_FLAG))
-				bounds.inside.box.hi[axis] = HUGE_VAL;
+			if(mesh.Data->Inside_Vect[axis] > 0.0)
+				body.lo[axis] = -HUGE_VAL;
+			if(mesh.Data->Inside_Vect[axis] < 0.0)
+				body.hi[axis] = HUGE_VAL;
 		}
 	}
 }

@@ -45,23 +45,31 @@ class Torus;
 class Triangle;
 class TrueType;
 
-/// Where an object may be. Both regions may be too large, never too small.
+/// Where an object may be. Regions may be too large, never too small.
 struct AccelBounds
 {
 	/// holds every hit that a leaf test may report
 	AccelRegion hits;
 	/// holds every point for which Inside is true
 	AccelRegion inside;
+	/// holds every point for which Inside is false
+	AccelRegion outside;
+	/// holds the hits that the leaf test reports elsewhere than at the points that it hands to clips and to other parts of a CSG
+	/// object, so that these do not bound them
+	accel_box strays;
 	/// do the hits lie in the region `inside`? Not for patches, which have no inside.
 	bool solid;
 	/// how far the points that the leaf test hands to clips and to other parts of a CSG object may be from the hits
 	VECTOR slack;
 
-	/// Nothing is known: both are the whole space.
-	AccelBounds() : solid(true) { slack[0] = slack[1] = slack[2] = 0.0; }
+	/// Nothing is known: all are the whole space.
+	AccelBounds() : strays(Empty_Box()), solid(true) { slack[0] = slack[1] = slack[2] = 0.0; }
 
-	/// A body, given a box around its hits, which it also lies in, unless it is inverted.
+	/// A body, given a box around its hits, which it also lies in. If it is inverted, what is outside of it lies there.
 	void SetBody(const AccelFrame& frame, const accel_box& box, bool inverted);
+
+	/// A surface, given a box around its hits. The inside may be anywhere.
+	void SetSurface(const AccelFrame& frame, const accel_box& box);
 
 	/// A patch, given a box around its hits. No point is inside.
 	void SetPatch(const AccelFrame& frame, const accel_box& box);

@@ -172,7 +172,10 @@ void Bound_Shape(const Prism& prism, const AccelReach& reach, AccelBounds& bound
 
 	Grow_Box(box, SOLVER_ALLOWANCE * max(max(box.hi[X] - box.lo[X], box.hi[Y] - box.lo[Y]), box.hi[Z] - box.lo[Z]));
 	Grow_Box(box, frame.rounding);
-	bounds.SetBody(frame, frame.ToScene(box), Test_Flag(&prism, INVERTED_FLAG) || Test_Flag(&prism, DEGENERATE_FLAG));
+	if(Test_Flag(&prism, DEGENERATE_FLAG))
+		bounds.SetSurface(frame, frame.ToScene(box));
+	else
+		bounds.SetBody(frame, frame.ToScene(box), Test_Flag(&prism, INVERTED_FLAG));
 }
 
 /// The spheres of all segments. Center and radius of each are polynomials, and so are the places where it ends on each axis; a

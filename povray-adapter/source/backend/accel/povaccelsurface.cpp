@@ -33,16 +33,17 @@ void Bound_Shape(const Plane& plane, const AccelReach& reach, AccelBounds& bound
 	const AccelFrame frame(plane.Trans, reach, Infinite_Box());
 	VECTOR opposite;
 
-	bounds.SetBody(frame, Infinite_Box(), true);
+	bounds.SetSurface(frame, Infinite_Box());
 	frame.AddHalfSpace(bounds.inside, plane.Normal_Vector, EPSILON - plane.Distance);
 	frame.AddHalfSpace(bounds.hits, plane.Normal_Vector, EPSILON - plane.Distance);
 	VScale(opposite, plane.Normal_Vector, -1.0);
 	frame.AddHalfSpace(bounds.hits, opposite, EPSILON + plane.Distance);
+	frame.AddHalfSpace(bounds.outside, opposite, EPSILON + plane.Distance);
 }
 
 void Bound_Shape(const Poly& poly, const AccelReach& reach, AccelBounds& bounds)
 {
-	bounds.SetBody(AccelFrame(poly.Trans, reach, Infinite_Box()), Infinite_Box(), true);
+	bounds.SetSurface(AccelFrame(poly.Trans, reach, Infinite_Box()), Infinite_Box());
 }
 
 
@@ -138,7 +139,7 @@ void Bound_Shape(const Quadric& quadric, const AccelReach& reach, AccelBounds& b
 	const DBL rounded = Rounding_Of_Form(quadric, frame.length);
 	AccelQuadric surface = Find_Axes(quadric);
 
-	bounds.SetBody(frame, Infinite_Box(), true);
+	bounds.SetSurface(frame, Infinite_Box());
 	surface.constant = quadric.Constant - rounded;
 	bounds.inside.quadrics.push_back(surface);
 	bounds.hits.quadrics.push_back(surface);
@@ -148,6 +149,7 @@ void Bound_Shape(const Quadric& quadric, const AccelReach& reach, AccelBounds& b
 		surface.linear[k] *= -1.0;
 	}
 	surface.constant = -quadric.Constant - rounded;
+	bounds.outside.quadrics.push_back(surface);
 	bounds.hits.quadrics.push_back(surface);
 }
 
@@ -189,8 +191,7 @@ void Bound_Shape(const IsoSurface& surface, const AccelReach& reach, AccelBounds
 
 	Grow_Box(box, 6.0 * fabs(surface.accuracy));
 	bounds.hits = AccelRegion(box);
-	bounds.inside = Test_Flag(&surface, INVERTED_FLAG) ? AccelRegion() : bounds.hits;
-	bounds.solid = true;
+	(Test_Flag(&surface, INVERTED_FLAG) ? bounds.outside : bounds.inside) = bounds.hits;
 }
 
 /// A flat container has no inside, and its leaf test then takes hits before it.
@@ -217,6 +218,10 @@ void Bound_Shape(const Parametric& surface, const AccelReach& reach, AccelBounds
  * farther. A point is outside as soon as an iterate, the first of which is the point,
  * is farther from the origin than the root of Exit_Value. But Iteration_HCompl_Func
  * takes the y coordinate for z as well, so nothing bounds z.
+ *
+ * After its first hit the leaf test goes on from a point beyond it, but with the depth
+ * of the hit. From there on depths are too small, while clips and other parts of a CSG
+ * object are asked about the point. Depths remain between those of the sphere.
  */
 void Bound_Shape(const Fractal& fractal, const AccelReach& reach, AccelBounds& bounds)
 {
@@ -225,7 +230,12 @@ void Bound_Shape(const Fractal& fractal, const AccelReach& reach, AccelBounds& b
 	const bool bounded = (fractal.Algebra == QUATERNION_TYPE) || (fractal.Sub_Type == SQR_STYPE) || (fractal.Sub_Type == CUBE_STYPE) ||
 	                     (fractal.Sub_Type == RECIPROCAL_STYPE);
 
-	bounds.SetBody(frame, Box_Of_Sphere(frame, fractal.Center, Sqr(radius)), fractal.Inverted || !bounded);
+	bounds.strays = Box_Of_Sphere(frame, fractal.Center, Sqr(radius));
+	if(bounded)
+		bounds.SetBody(frame, bounds.strays, fractal.Inverted);
+	else
+		bounds.SetSurface(frame, bounds.strays);
+	bounds.hits = AccelRegion(Empty_Box());
 }
 
 }
