@@ -1,8 +1,27 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+#if defined(__linux__)
+#define _DEFAULT_SOURCE
+#include <sys/mman.h>
+#endif
+
 #include "memory.h"
 
 #include <stdint.h>
 #include <stdlib.h>
+
+/* Asks for large pages within a large block: a build then spends less on the first touch of each
+ * page, and rays on finding where they are. */
+static void ask_for_large_pages(void *block, size_t bytes)
+{
+#if defined(__linux__) && defined(MADV_HUGEPAGE)
+    enum { LARGE_PAGE = 1 << 21, FEWEST_PAGES = 2 };
+    const size_t before = (size_t)(-(uintptr_t)block % LARGE_PAGE);
+    if (block && bytes >= before + FEWEST_PAGES * (size_t)LARGE_PAGE)
+        madvise((char *)block + before, (bytes - before) / LARGE_PAGE * LARGE_PAGE, MADV_HUGEPAGE);
+#else
+    (void)block, (void)bytes;
+#endif
+}
 
 void *accel_memory_system(void *user, void *old, size_t from, size_t to)
 {
@@ -12,7 +31,9 @@ void *accel_memory_system(void *user, void *old, size_t from, size_t to)
         free(old);
         return NULL;
     }
-    return realloc(old, to);
+    void *block = realloc(old, to);
+    ask_for_large_pages(block, to);
+    return block;
 }
 
 void *accel_memory_resize(struct memory *m, void *old, size_t from, size_t to)

@@ -19,6 +19,7 @@
 #include <string.h>
 
 #include "../cluster/cluster.h"
+#include "../core/four.h"
 
 /* Bins an axis; the largest range that is sorted instead; most primitives of a leaf; items between
  * two ticks, and those that could be looked at in the time that a leaf takes. */
@@ -37,7 +38,7 @@ enum { ALL_AXES = 7, CLUSTER_DEPTH = 48 };
 #define OBJECT_COST  4.0f
 
 struct bounds {
-    float lo[4], hi[4]; /* the fourth is not used: four are added as fast as three */
+    four lo, hi; /* the fourth is not used */
 };
 
 struct bin {
@@ -84,25 +85,18 @@ struct costs {
 static struct bounds nothing(void)
 {
     const float inf = (float)INFINITY;
-    return (struct bounds){{inf, inf, inf, inf}, {-inf, -inf, -inf, -inf}};
+    return (struct bounds){four_all(inf), four_all(-inf)};
 }
 
-static inline void add(struct bounds *b, const float lo[4], const float hi[4])
+static inline void add(struct bounds *b, four lo, four hi)
 {
-    for (int k = 0; k < 4; k++) {
-        b->lo[k] = lo[k] < b->lo[k] ? lo[k] : b->lo[k];
-        b->hi[k] = hi[k] > b->hi[k] ? hi[k] : b->hi[k];
-    }
+    b->lo = four_min(lo, b->lo);
+    b->hi = four_max(hi, b->hi);
 }
 
-/* The sides of an item; what stands in the fourth place is not used. */
 static inline struct bounds sides_of(const struct wide_item *item)
 {
-    struct bounds b;
-    memcpy(b.lo, item->lo, sizeof b.lo);
-    memcpy(b.hi, item->hi, sizeof b.hi);
-    b.lo[3] = 0.0f;
-    return b;
+    return (struct bounds){four_of_three(item->lo), four_of_three(item->hi)};
 }
 
 static inline float key_of(const struct range *r, const struct wide_item *item, int axis)
@@ -128,9 +122,7 @@ static bool measure(struct grower *g, struct range *r)
     r->box = r->keys = nothing();
     for (uint32_t i = 0; i < r->count; i++) {
         const struct bounds b = sides_of(&r->at[i]);
-        float key[4];
-        for (int k = 0; k < 4; k++)
-            key[k] = b.lo[k] + r->weight * b.hi[k];
+        const four key = b.lo + r->weight * b.hi;
         add(&r->box, b.lo, b.hi);
         add(&r->keys, key, key);
         if (i % TICK == TICK - 1 && !tick(g, r->first, TICK))
@@ -161,14 +153,16 @@ static inline int bin_of(const struct range *r, float key, int axis, float scale
 
 static bool fill_bins(struct grower *g, const struct range *r)
 {
-    const float scale[3] = {bin_scale(r, 0), bin_scale(r, 1), bin_scale(r, 2)};
+    const four scale = {bin_scale(r, 0), bin_scale(r, 1), bin_scale(r, 2), 0.0f};
     for (int k = 0; k < 3; k++)
         for (int i = 0; i < BINS; i++)
             g->bins[k][i] = (struct bin){nothing(), 0};
     for (uint32_t i = 0; i < r->count; i++) {
         const struct bounds b = sides_of(&r->at[i]);
+        const four key = b.lo + r->weight * b.hi;
+        const four_int at = __builtin_convertvector((key - r->keys.lo) * scale, four_int);
         for (int k = 0; k < 3; k++) {
-            struct bin *bin = &g->bins[k][bin_of(r, b.lo[k] + r->weight * b.hi[k], k, scale[k])];
+            struct bin *bin = &g->bins[k][at[k]];
             add(&bin->box, b.lo, b.hi);
             bin->count++;
         }
@@ -396,8 +390,8 @@ static bool split(struct grower *g, struct range *r, uint32_t *left)
 static void set_node(struct wide_binary *node, const struct bounds *box, uint32_t first,
                      uint32_t count)
 {
-    memcpy(node->lo, box->lo, sizeof node->lo);
-    memcpy(node->hi, box->hi, sizeof node->hi);
+    memcpy(node->lo, &box->lo, sizeof node->lo);
+    memcpy(node->hi, &box->hi, sizeof node->hi);
     node->first = first;
     node->count = count;
     node->right = 0;
