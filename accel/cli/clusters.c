@@ -108,12 +108,19 @@ static double cluster_part(const accel_info *info)
 static bool take_turn(const request *r, const struct loaded *loaded, figures *f, size_t turn,
                       struct progress *progress)
 {
+    const accel_hooks hooks = {.user = progress, .progress = progress_build, .threads = 1};
+    accel *a;
+    accel_error error;
+    progress->what = "hoo";
     const double start = machine_seconds();
-    accel *a = open_structure(loaded, "hoo", r->command, progress);
-    if (a == NULL) {
+    const accel_status status = accel_build(&a, &loaded->scene, "hoo", &hooks, &error);
+    f->builds[turn] = machine_seconds() - start;
+    progress->what = NULL;
+    progress_clear(progress);
+    if (status != ACCEL_OK) {
+        complain(r->command, "%s", error.text);
         return false;
     }
-    f->builds[turn] = machine_seconds() - start;
     accel_describe(a, &f->info);
     f->clusters[turn] = f->builds[turn] * cluster_part(&f->info);
     accel_free(a);

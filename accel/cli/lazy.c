@@ -114,8 +114,9 @@ static int take_turn(race *r, int which, size_t turn)
     accel *a;
     accel_error error;
     uint64_t found = 0, i = 0;
+    const accel_hooks hooks = {.threads = 1};
     const double start = machine_seconds();
-    if (accel_build(&a, &r->bench.loaded.scene, c->config, NULL, &error) != ACCEL_OK) {
+    if (accel_build(&a, &r->bench.loaded.scene, c->config, &hooks, &error) != ACCEL_OK) {
         return complain(r->request->command, "%s", error.text);
     }
     c->build[turn] = machine_seconds() - start;

@@ -4,7 +4,9 @@
  * enter what is not built yet.
  */
 #include <pthread.h>
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "cmocka_all.h"
 #include "compare.h"
@@ -282,12 +284,77 @@ static void test_small_stack(void **state)
     free(list);
 }
 
+/* Answers and the work that they took: the same if the structure is. */
+static uint64_t hash_work(const accel *a, const struct test_scene *s)
+{
+    struct rng d = rng_from(9, 9);
+    uint64_t hash = HASH_START;
+    for (uint64_t i = 0; i < scaled_count(2000); i++) {
+        const accel_ray ray = ray_families->make(s, a, &d, i);
+        accel_query query = {0};
+        accel_hit hit = {.prim = 0};
+        accel_closest(a, &ray, &hit, &query);
+        hash = 31 * hash + 7 * query.nodes + query.tests + hit.prim;
+    }
+    return hash;
+}
+
+/* A build by several threads makes what one makes. */
+static void test_team(void **state)
+{
+    (void)state;
+    static const char *const configs[] = {"bvh", "octree", "hoo", "bvh:isa=portable"};
+    struct test_scene s;
+    scene_make(&s, scene_maker_find("soup-100k"), test_seed());
+    for (size_t i = 0; i < sizeof configs / sizeof *configs; i++) {
+        char kind[20];
+        uint64_t expected = 0;
+        snprintf(kind, sizeof kind, "%.*s", (int)strcspn(configs[i], ":"), configs[i]);
+        for (unsigned threads = 1; threads < 9 && kind_is_there(kind); threads += 1 + threads / 3) {
+            const accel_hooks hooks = {.threads = threads};
+            accel *a;
+            accel_error error;
+            if (accel_build(&a, &s.scene, configs[i], &hooks, &error) != ACCEL_OK)
+                fail_msg("%s with %u threads: %s", configs[i], threads, error.text);
+            const uint64_t hash = hash_work(a, &s);
+            accel_free(a);
+            expected = threads == 1 ? hash : expected;
+            if (hash != expected)
+                fail_msg("%s: %u threads build something else than one", configs[i], threads);
+        }
+    }
+    scene_free(&s);
+}
+
+static bool stop_in_tree(void *user, const char *phase, double done)
+{
+    int *left = user;
+    return strcmp(phase, "tree") != 0 || done == 0.0 || --*left > 0;
+}
+
+/* One that is cancelled waits for all of its threads. */
+static void test_team_stops(void **state)
+{
+    (void)state;
+    struct test_scene s;
+    scene_make(&s, scene_maker_find("soup-100k"), test_seed());
+    for (int calls = 1; calls < 6 && kind_is_there("bvh"); calls++) {
+        int left = calls;
+        const accel_hooks hooks = {.user = &left, .progress = stop_in_tree, .threads = 4};
+        accel *a;
+        const accel_status status = accel_build(&a, &s.scene, "bvh", &hooks, NULL);
+        assert_int_equal(status, left > 0 ? ACCEL_OK : ACCEL_CANCELLED);
+        accel_free(a);
+    }
+    scene_free(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_together),
-        cmocka_unit_test(test_grow_together),
-        cmocka_unit_test(test_small_stack),
+        cmocka_unit_test(test_together),    cmocka_unit_test(test_grow_together),
+        cmocka_unit_test(test_small_stack), cmocka_unit_test(test_team),
+        cmocka_unit_test(test_team_stops),
     };
     return cmocka_run_group_tests_name("threads", tests, NULL, NULL);
 }

@@ -52,7 +52,7 @@ accel *report_build(struct reporting *r, const accel_scene *scene, const char *c
 {
     accel *a;
     accel_error error;
-    const accel_hooks hooks = {.user = &r->progress, .progress = progress_build};
+    const accel_hooks hooks = {.user = &r->progress, .progress = progress_build, .threads = 1};
     const char *what = r->progress.what;
     r->progress.what = config;
     const double start = machine_seconds();

@@ -332,6 +332,9 @@ typedef struct accel_hooks {
      * accel_build only. */
     const accel_ray *pilot;
     size_t pilot_count;
+    /* Threads that a build may use, the calling one among them; 0: one for each processor. They end
+     * with the build, call no hook, and change no byte of what is built. */
+    unsigned threads;
 } accel_hooks;
 
 /* Builds the structure that `config` names over `scene`.

@@ -20,15 +20,19 @@
 
 #include "../cluster/cluster.h"
 #include "../core/four.h"
+#include "../core/team.h"
 
 /* Bins an axis; the largest range that is sorted instead; most primitives of a leaf; items between
  * two ticks, and those that could be looked at in the time that a leaf takes. */
-enum { BINS = 32, SWEEP = 8, LEAF = 8, TICK = 16384, TICK_LEAF = 8 };
+enum { BINS = 32, SWEEP = 8, LEAF = 8, TICK = 16384, TICK_LEAF = 8, TICK_GROWN = 1024 };
 
 /* All three axes. Levels that clusters may take of the tree: below, 48 are left for 2^32
  * primitives.
  */
 enum { ALL_AXES = 7, CLUSTER_DEPTH = 48 };
+
+/* Fewer items are not worth a thread. */
+enum { LEAST_OF_THREAD = 8192 };
 
 /* What a leaf costs beside its tests, that of spheres in all lanes, and that of an object, which
  * has none beside it: its box is asked, then its host; in units of testing triangles in all lanes.
@@ -46,14 +50,23 @@ struct bin {
     uint32_t count;
 };
 
-/* What is the same for all ranges. */
+/* What all threads share. */
+struct shared {
+    struct team team;
+    atomic_uint grown; /* items that are in their leaves, as far as threads have told */
+};
+
+/* What is the same for all ranges of a thread. */
 struct grower {
     struct build *build;
+    struct shared *shared;
+    uint32_t grown; /* items that are in their leaves, not told yet */
+    bool helps;     /* a thread beside the one that builds: it must not call hooks */
     const struct wide *w;
     struct wide_rule rule;
     enum wide_cut cut;
     struct wide_binary_tree *tree;
-    struct bin bins[3][BINS]; /* of the range that is cut */
+    struct bin (*bins)[BINS]; /* 3 axes, of the range that is cut */
 };
 
 /* A range of items, told apart by their keys: twice their centres, or where those coincide their
@@ -61,7 +74,6 @@ struct grower {
 struct range {
     struct wide_item *at;
     uint32_t count;
-    uint32_t first; /* its place in the order of the leaves */
     uint32_t limit; /* most of them that a side of a cut may have */
     float weight;   /* key = lo + weight * hi */
     uint32_t axes;  /* bits: those that it may be cut along */
@@ -110,10 +122,23 @@ static inline float area(const struct bounds *b)
     return x * y + y * z + z * x;
 }
 
-/* All before the `first` item is done. */
-static bool tick(struct grower *g, uint32_t first, uint32_t looked_at)
+/* Progress, and whether to go on. */
+static bool tick(struct grower *g, uint32_t looked_at)
 {
-    return build_step(g->build, looked_at, (double)first / (double)g->tree->count);
+    struct shared *s = g->shared;
+    if (atomic_load_explicit(&s->team.stopped, memory_order_relaxed))
+        return false;
+    if (g->grown >= TICK_GROWN) {
+        atomic_fetch_add_explicit(&s->grown, g->grown, memory_order_relaxed);
+        g->grown = 0;
+    }
+    if (g->helps)
+        return true;
+    const double grown = (double)atomic_load_explicit(&s->grown, memory_order_relaxed);
+    if (build_step(g->build, looked_at, grown / (double)g->tree->count))
+        return true;
+    atomic_store(&s->team.stopped, true);
+    return false;
 }
 
 /* Fills in the boxes. */
@@ -125,7 +150,7 @@ static bool measure(struct grower *g, struct range *r)
         const four key = b.lo + r->weight * b.hi;
         add(&r->box, b.lo, b.hi);
         add(&r->keys, key, key);
-        if (i % TICK == TICK - 1 && !tick(g, r->first, TICK))
+        if (i % TICK == TICK - 1 && !tick(g, TICK))
             return false;
     }
     return true;
@@ -166,7 +191,7 @@ static bool fill_bins(struct grower *g, const struct range *r)
             add(&bin->box, b.lo, b.hi);
             bin->count++;
         }
-        if (i % TICK == TICK - 1 && !tick(g, r->first, TICK))
+        if (i % TICK == TICK - 1 && !tick(g, TICK))
             return false;
     }
     return true;
@@ -399,12 +424,26 @@ static void set_node(struct wide_binary *node, const struct bounds *box, uint32_
     node->leaf = true;
 }
 
+/* A range that is to be grown. */
+struct task {
+    uint32_t first, count, place, depth, axes;
+    struct costs *out;
+};
+
+/* The same by a thread of its own. */
+struct branch {
+    struct grower grower;
+    struct task task;
+    bool fine;
+};
+
+static bool grow_sides(struct grower *g, const struct task side[2]);
+
 static bool grow(struct grower *g, uint32_t first, uint32_t count, uint32_t place, uint32_t depth,
                  uint32_t axes, struct costs *out)
 {
     struct wide_binary *node = &g->tree->nodes[place];
-    struct range r = {
-        .at = g->tree->items + first, .count = count, .first = first, .weight = 1.0f, .axes = axes};
+    struct range r = {.at = g->tree->items + first, .count = count, .weight = 1.0f, .axes = axes};
     struct costs side[2];
     uint32_t left;
     if (!measure(g, &r))
@@ -412,17 +451,60 @@ static bool grow(struct grower *g, uint32_t first, uint32_t count, uint32_t plac
     set_node(node, &r.box, first, count);
     if (count == 1) {
         *out = (struct costs){.as[1] = area(&r.box) * leaf_cost(g, r.at, 1), .slots = 1};
-        return tick(g, first, TICK_LEAF);
+        g->grown++;
+        return tick(g, TICK_LEAF);
     }
     r.limit = most_items(WIDE_MAX_DEPTH - depth - 1);
     if (!split(g, &r, &left))
         return false;
     node->right = place + 2 * left;
-    if (!grow(g, first, left, place + 1, depth + 1, r.axes, &side[0]) ||
-        !grow(g, first + left, count - left, node->right, depth + 1, r.axes, &side[1]))
+    const struct task task[2] = {
+        {first, left, place + 1, depth + 1, r.axes, &side[0]},
+        {first + left, count - left, node->right, depth + 1, r.axes, &side[1]}};
+    if (!grow_sides(g, task))
         return false;
     join(g, node, area(&r.box), side, out);
     return true;
+}
+
+static bool grow_task(struct grower *g, const struct task *t)
+{
+    return grow(g, t->first, t->count, t->place, t->depth, t->axes, t->out);
+}
+
+static void grow_branch(void *user)
+{
+    struct branch *b = user;
+    struct bin bins[3][BINS];
+    b->grower.bins = bins;
+    b->fine = grow_task(&b->grower, &b->task);
+    atomic_fetch_add_explicit(&b->grower.shared->grown, b->grower.grown, memory_order_relaxed);
+}
+
+static void watch(void *user)
+{
+    tick(user, TICK);
+}
+
+/* One side beside the other, where a thread is to be had and both are worth it. */
+__attribute__((noinline)) static bool grow_beside(struct grower *g, const struct task side[2])
+{
+    struct branch b = {*g, side[1], false};
+    struct team_branch t = {.work = grow_branch, .user = &b};
+    b.grower.helps = true;
+    b.grower.grown = 0;
+    if (!accel_team_start(&g->shared->team, &t))
+        return grow_task(g, &side[0]) && grow_task(g, &side[1]);
+    const bool fine = grow_task(g, &side[0]);
+    accel_team_wait(&t, g->helps ? NULL : watch, g);
+    return fine && b.fine;
+}
+
+static bool grow_sides(struct grower *g, const struct task side[2])
+{
+    if (side[0].count >= LEAST_OF_THREAD && side[1].count >= LEAST_OF_THREAD)
+        return grow_beside(g, side);
+    return grow_task(g, &side[0]) && grow_task(g, &side[1]);
 }
 
 /* ----------------------------------------------------------------------------- clusters ---- */
@@ -434,7 +516,7 @@ static bool gather(struct grower *g, const uint32_t *ids, uint32_t first, uint32
     struct wide_item *items = g->tree->items + first;
     for (uint32_t i = 0; i < count; i++) {
         items[i] = accel_wide_item_of(g->w, &box[ids[i]], ids[i]);
-        if (i % TICK == TICK - 1 && !tick(g, first, 0))
+        if (i % TICK == TICK - 1 && !tick(g, 0))
             return false;
     }
     return true;
@@ -463,7 +545,7 @@ static bool grow_clusters(struct grower *g, struct wide_item *at, uint32_t count
                           uint32_t place, uint32_t depth, struct costs *out)
 {
     struct wide_binary *node = &g->tree->nodes[place];
-    struct range r = {.at = at, .count = count, .first = first, .weight = 1.0f, .axes = ALL_AXES};
+    struct range r = {.at = at, .count = count, .weight = 1.0f, .axes = ALL_AXES};
     struct costs side[2];
     uint32_t left;
     if (count == 1)
@@ -500,8 +582,17 @@ static bool grow_hierarchy(struct grower *g, struct costs *out)
 bool accel_wide_grow(struct build *build, const struct wide *w, struct wide_rule rule,
                      enum wide_cut cut, struct wide_binary_tree *tree)
 {
-    struct grower g = {.build = build, .w = w, .rule = rule, .cut = cut, .tree = tree};
+    struct shared shared = {.grown = 0};
+    struct bin bins[3][BINS];
+    struct grower g = {.build = build,
+                       .shared = &shared,
+                       .w = w,
+                       .rule = rule,
+                       .cut = cut,
+                       .tree = tree,
+                       .bins = bins};
     struct costs costs;
+    accel_team_make(&shared.team, build->hooks->threads);
     if (tree->clusters)
         return grow_hierarchy(&g, &costs);
     return gather(&g, build->a->prims.bounded.at, 0, tree->count) &&
