@@ -388,6 +388,7 @@ bool Accelerator::FindInPart(const Part& part, AccelQuery& query, accel_query& c
 
 	const bool found = (part.unbounded.size() < objects.size()) && accel_closest(part.structure, &ray, &hit, &counters);
 
+	counters.tests += part.unbounded.size();
 	if(counters.refused > 0)
 		query.best.Depth = limit; // the linear search will find again what was found here
 	index = found ? hit.prim : query.firstUnbounded;
