@@ -33,10 +33,15 @@ need_binaries() {
 # render LOG WxH BINARY ARGUMENT...: renders in the current folder, where POV-Ray may write.
 # Returns POV-Ray's exit code; its messages, one a line, go to LOG.
 render() {
-    local log=$1 size=$2 binary=$3 status=0
+    local log=$1 size=$2 binary=$3 status=0 try
     shift 3
-    "$binary" -D -A +WT1 +FP16 +W"${size%x*}" +H"${size#*x}" "$@" >"$log.raw" 2>&1 </dev/null ||
-        status=$?
+    # POV-Ray gives up if its own threads are not there in time, as on a busy machine
+    for ((try = 0; try < 20; try++)); do
+        status=0
+        "$binary" -D -A +WT1 +FP16 +W"${size%x*}" +H"${size#*x}" "$@" >"$log.raw" 2>&1 </dev/null ||
+            status=$?
+        grep -aq 'Timed out waiting for worker thread startup' "$log.raw" || break
+    done
     tr '\r' '\n' <"$log.raw" >"$log"
     rm -f "$log.raw"
     return $status

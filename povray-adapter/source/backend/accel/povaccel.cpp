@@ -179,6 +179,9 @@ static void Test_Object(accel_probe *probe)
 	if(query.TestLeaf(object) == true)
 	{
 		query.leafHits++;
+		// of equal depths the first object counts
+		if((query.candidate.Depth == query.firstDepth) && (probe->prim > query.firstUnbounded))
+			return;
 		if(accel_report(probe, query.candidate.Depth, 0.0, 0.0))
 			query.best = query.candidate;
 	}
@@ -225,8 +228,19 @@ static vector<accel_ray> Camera_Pilot(const Camera& camera)
 /// The structure over all objects, for rays that begin within reach of the part.
 void Accelerator::BuildPart(Part& part, const accel_hooks *hooks, accel_error& error) const
 {
-	const vector<accel_box> boxes = Find_Boxes(objects, part.reach);
+	vector<accel_box> boxes = Find_Boxes(objects, part.reach);
 	double tests = 0.0;
+
+	if(verify)
+		part.boxes = boxes;
+	for(size_t i = 0; i < boxes.size(); i++)
+	{
+		if(!Is_Finite(boxes[i]) && !Is_Empty(boxes[i]))
+		{
+			part.unbounded.push_back(i);
+			boxes[i] = Empty_Box();
+		}
+	}
 
 	for(vector<ObjectPtr>::const_iterator i = objects.begin(); i != objects.end(); i++)
 		tests += Count_Parts(*i);
@@ -242,8 +256,6 @@ void Accelerator::BuildPart(Part& part, const accel_hooks *hooks, accel_error& e
 
 	const accel_scene library_scene = { &geometry, 1 };
 
-	if(verify)
-		part.boxes = boxes;
 	part.built = (accel_build(&part.structure, &library_scene, config.c_str(), hooks, &error) == ACCEL_OK);
 }
 
@@ -277,6 +289,11 @@ void Accelerator::Build(const SceneData& scene, Task& task)
 	progress.RethrowIfStopped();
 	if(parts[0].built == false)
 		Throw_Library_Error(error);
+
+	vector<uint32_t> beyond;
+
+	std::set_union(beyondBoxes.begin(), beyondBoxes.end(), parts[0].unbounded.begin(), parts[0].unbounded.end(), std::back_inserter(beyond));
+	beyondBoxes.swap(beyond);
 }
 
 static boost::mutex buildMutex;
@@ -335,25 +352,60 @@ bool Accelerator::FindIntersection(Trace& trace, TraceThreadData *thread, Inters
 	return Find(trace, query);
 }
 
+/// The unbounded objects as a linear search would test them, then the structure for what is nearer, or as near and before them.
+bool Accelerator::FindInPart(const Part& part, AccelQuery& query, accel_query& counters, uint32_t& index) const
+{
+	const DBL limit = query.best.Depth;
+	accel_ray ray;
+	accel_hit hit;
+
+	for(vector<uint32_t>::const_iterator i = part.unbounded.begin(); i != part.unbounded.end(); i++)
+	{
+		ObjectPtr object = query.objects[*i];
+
+		if(query.MayHit(object) == false)
+			continue;
+		query.leafTests++;
+		if(query.TestLeaf(object) == true)
+		{
+			query.leafHits++;
+			if(query.candidate.Depth < query.best.Depth)
+			{
+				query.best = query.candidate;
+				query.firstUnbounded = *i;
+				query.firstDepth = query.candidate.Depth;
+			}
+		}
+	}
+
+	Assign_Vector(ray.org, query.ray.Origin);
+	Assign_Vector(ray.dir, query.ray.Direction);
+	// The leaf test of a subsurface ray has no lower limit for the depth; all others report at least MIN_ISECT_DEPTH.
+	ray.tmin = query.ray.IsSubsurfaceRay() ? -HUGE_VAL : 0.0;
+	ray.tmax = (query.firstUnbounded != ACCEL_NONE) ? nextafter(query.firstDepth, HUGE_VAL) : limit;
+	ray.skip.geom = ray.skip.prim = ACCEL_NONE;
+	hit.prim = ACCEL_NONE;
+
+	const bool found = (part.unbounded.size() < objects.size()) && accel_closest(part.structure, &ray, &hit, &counters);
+
+	counters.tests += part.unbounded.size();
+	if(counters.refused > 0)
+		query.best.Depth = limit; // the linear search will find again what was found here
+	index = found ? hit.prim : query.firstUnbounded;
+
+	return index != ACCEL_NONE;
+}
+
 bool Accelerator::Find(Trace& trace, AccelQuery& query) const
 {
 	const DBL limit = query.best.Depth;
 	const Part *part = ChoosePart(query.ray.Origin);
 	accel_query counters = { &query, 0, 0, 0, 0 };
-	accel_hit hit;
-	accel_ray ray;
+	uint32_t index = ACCEL_NONE;
 	bool found = false;
 
-	hit.prim = ACCEL_NONE;
-	Assign_Vector(ray.org, query.ray.Origin);
-	Assign_Vector(ray.dir, query.ray.Direction);
-	// The leaf test of a subsurface ray has no lower limit for the depth; all others report at least MIN_ISECT_DEPTH.
-	ray.tmin = query.ray.IsSubsurfaceRay() ? -HUGE_VAL : 0.0;
-	ray.tmax = limit;
-	ray.skip.geom = ray.skip.prim = ACCEL_NONE;
-
 	if(part != NULL)
-		found = accel_closest(part->structure, &ray, &hit, &counters);
+		found = FindInPart(*part, query, counters, index);
 	else
 		counters.refused = 1;
 
@@ -361,7 +413,7 @@ bool Accelerator::Find(Trace& trace, AccelQuery& query) const
 
 	// The library refuses a ray that is not finite, but POV-Ray's leaf tests may still answer it.
 	if(counters.refused > 0)
-		found = Search_Linearly(trace, query, query.best, hit.prim);
+		found = Search_Linearly(trace, query, query.best, index);
 
 	stats[Accel_Queries]++;
 	if(found)
@@ -375,7 +427,7 @@ bool Accelerator::Find(Trace& trace, AccelQuery& query) const
 	if(verify == false)
 		stats[Accel_Hits_Outside] += counters.outside;
 	else // counts them itself, and more of them
-		Verify(trace, query, (counters.refused > 0) ? NULL : part, limit, found, hit.prim);
+		Verify(trace, query, (counters.refused > 0) ? NULL : part, limit, found, index);
 
 	return found;
 }
@@ -426,11 +478,11 @@ void Accelerator::FindContainingInteriors(const VECTOR point, TraceThreadData *t
  *
  *****************************************************************************/
 
-static std::string Describe_Structure(const accel_info& info, size_t lightsLeftOut)
+static std::string Describe_Structure(const accel_info& info, size_t unbounded, size_t lightsLeftOut)
 {
 	std::string text = str(format("Accelerator:      %s\n") % info.config);
 
-	text += str(format("  Objects:        %10d   Unbounded:       %10d   Lights left out: %d\n") % info.primitives % info.unbounded % lightsLeftOut);
+	text += str(format("  Objects:        %10d   Unbounded:       %10d   Lights left out: %d\n") % info.primitives % unbounded % lightsLeftOut);
 	if(info.clusters > 0)
 		text += str(format("  Clusters:       %10d   Size classes:    %10d\n") % info.clusters % info.size_classes);
 	text += str(format("  Nodes:          %10d   Leaves:          %10d   Maximum depth: %d\n") % info.nodes % info.leaves % info.depth);
@@ -454,7 +506,7 @@ void Accelerator::GetStatistics(POVMS_Object& parserStats) const
 		accel_info info;
 
 		accel_describe(parts[0].structure, &info);
-		parserStats.SetString(kPOVAttrib_AcceleratorText, Describe_Structure(info, lightsLeftOut).c_str());
+		parserStats.SetString(kPOVAttrib_AcceleratorText, Describe_Structure(info, parts[0].unbounded.size(), lightsLeftOut).c_str());
 	}
 	else if(chosen)
 		parserStats.SetString(kPOVAttrib_AcceleratorText, "Accelerator:      none, linear search (bounding is off, or there are few objects)\n");

@@ -81,7 +81,7 @@ class Accelerator
 		vector<ObjectPtr> objects;
 		/// number of light sources left out, as no ray can hit them
 		size_t lightsLeftOut;
-		/// objects that points outside their box may be in, in the order of the scene
+		/// objects that points outside their box may be in, or that have none, in the order of the scene
 		vector<uint32_t> beyondBoxes;
 		/// for messages from the render threads, which outlive no scene
 		const SceneData *sceneData;
@@ -91,6 +91,7 @@ class Accelerator
 		{
 			AccelReach reach;
 			accel *structure; // NULL until built
+			vector<uint32_t> unbounded; // the objects that the structure leaves out, rising
 			vector<accel_box> boxes; // kept for Accelerator_Verify alone
 			std::atomic<bool> built;
 			std::atomic<POV_ULONG> queries; // of all but the first
@@ -109,6 +110,7 @@ class Accelerator
 		void BuildPart(Part& part, const accel_hooks *hooks, accel_error& error) const;
 		const Part *ChoosePart(const VECTOR origin) const;
 		bool Find(Trace& trace, AccelQuery& query) const;
+		bool FindInPart(const Part& part, AccelQuery& query, accel_query& counters, uint32_t& index) const;
 		void Verify(Trace& trace, const AccelQuery& query, const Part *part, DBL limit, bool found, uint32_t index) const;
 		void VerifyInteriors(const VECTOR point, TraceThreadData *thread, const vector<ObjectPtr>& found) const;
 		void ReportOutside(const AccelQuery& query, const accel_box& box, uint32_t index, DBL depth) const;

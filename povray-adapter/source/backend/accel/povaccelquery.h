@@ -39,10 +39,12 @@ struct AccelQuery
 	ObjectBase::BBoxDirection variant;
 	POV_ULONG leafTests;
 	POV_ULONG leafHits;
+	uint32_t firstUnbounded; // of what was hit before the structure was asked, or ACCEL_NONE
+	DBL firstDepth;
 
 	AccelQuery(const vector<ObjectPtr>& objs, const Ray& r, const RayObjectCondition *prec, const RayObjectCondition *postc,
 	           TraceThreadData *t, Intersection& bi) :
-		objects(objs), ray(r), precondition(prec), postcondition(postc), thread(t), best(bi), leafTests(0), leafHits(0)
+		objects(objs), ray(r), precondition(prec), postcondition(postc), thread(t), best(bi), leafTests(0), leafHits(0), firstUnbounded(ACCEL_NONE), firstDepth(HUGE_VAL)
 	{
 		// as BSPIntersectFunctor does
 		Vector3d tmp(1.0 / ray.GetDirection()[X], 1.0 / ray.GetDirection()[Y], 1.0 / ray.GetDirection()[Z]);
