@@ -38,7 +38,7 @@ enum { LEAST_OF_THREAD = 8192 };
  * has none beside it: its box is asked, then its host; in units of testing triangles in all lanes.
  */
 #define LEAF_COST    0.3f
-#define SPHERES_COST 1.5f
+#define SPHERES_COST 1.0f
 #define OBJECT_COST  4.0f
 
 struct bounds {
