@@ -213,10 +213,10 @@ static void test_configs(void **state)
     (void)state;
     const accel_scene nothing = {NULL, 0};
     struct rng d = rng_from(test_seed(), 3);
-    size_t accel_kind_list;
-    const accel_kind_info *const *kind = accel_kinds(&accel_kind_list);
+    size_t kinds;
+    const accel_kind_info *const *kind = accel_kinds(&kinds);
     for (uint64_t i = 0; i < scaled_count(40000); i++) {
-        const accel_kind_info *k = kind[rng_below(&d, (uint32_t)accel_kind_list)];
+        const accel_kind_info *k = kind[rng_below(&d, (uint32_t)kinds)];
         char text[600];
         double value[40];
         any_config(&d, k, text, sizeof text, value);
@@ -312,15 +312,15 @@ static void test_structures(void **state)
 static void test_small_scenes(void **state)
 {
     (void)state;
-    size_t accel_kind_list;
-    const accel_kind_info *const *kind = accel_kinds(&accel_kind_list);
+    size_t kinds;
+    const accel_kind_info *const *kind = accel_kinds(&kinds);
     for (uint64_t i = 0; i < scaled_count(400); i++) {
         struct test_scene s;
         struct rng d = rng_from(test_seed(), i);
         scene_open(&s);
         make_soup(&s, &d, 1 + rng_below(&d, 60));
         scene_close(&s);
-        for (size_t k = 0; k < accel_kind_list; k++)
+        for (size_t k = 0; k < kinds; k++)
             build_again(&s, "soup", kind[k]->name, i + k);
         scene_free(&s);
     }

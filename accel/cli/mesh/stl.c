@@ -62,8 +62,8 @@ static void skip_name(mesh_text *text)
  * there are less than 2^24 triangles. */
 static bool begins_as_text(mesh_text *text)
 {
-    const char *const count = text->begin + HEADER - 4;
-    const bool zero = text->end - count >= 4 && memchr(count, 0, 4) != NULL;
+    const bool zero =
+        text->end - text->begin >= HEADER && memchr(text->begin + HEADER - 4, 0, 4) != NULL;
     return !zero && take(text, "solid");
 }
 

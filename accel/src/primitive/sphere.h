@@ -15,9 +15,4 @@
  * 0; see sphere.c. */
 int accel_sphere_hits(const struct query *q, const double *sphere, bool leaves, double t[2]);
 
-/* The same for a ray that leaves this sphere: only the root that is farther from 0, where there are
- * any. It is positive where the ray goes inward, and below 0 or 0 where it does not: see sphere.c.
- */
-int sphere_hits_far(const struct query *q, const double *sphere, double t[1]);
-
 #endif

@@ -561,7 +561,7 @@ void Accelerator::GetStatistics(POVMS_Object& renderStats, const RenderStatistic
 	if(verified > 0)
 		text += str(format("Accelerator outside:  %13d   (of all hits of all objects: outside the box of their object)\n") % outside);
 	else if(outside > 0)
-		text += str(format("Accelerator outside:  %13d   (hits before their box: its padding may be too small)\n") % outside);
+		text += str(format("Accelerator outside:  %13d   (hits before the box of their object, which may be too small)\n") % outside);
 	if(text.empty() == false)
 		renderStats.SetString(kPOVAttrib_AcceleratorText, text.c_str());
 }

@@ -105,8 +105,8 @@ accel_box Box_Of_Sphere(const AccelFrame& frame, const VECTOR center, DBL radius
  * to EPSILON for 0, so that a hit may drift by that times its depth to the side of
  * the slabs; the depth is bounded by the largest component, which is at least
  * 1 / (sqrt(3) * stretch). And it lets a hit lie CLOSE_TOLERANCE (boxes.cpp: 1e-6)
- * behind a side, in the depth of the scene. Where all components may be too small, it may report
- * BOUND_HUGE as depth.
+ * behind a side, in the depth of the scene. Where all components may be too small, it
+ * may report BOUND_HUGE as depth.
  */
 accel_box Box_Of_Container(const AccelFrame& frame, const VECTOR corner1, const VECTOR corner2)
 {
@@ -171,12 +171,14 @@ void Bound_Shape(const Cone& cone, const AccelReach& reach, AccelBounds& bounds)
 
 	VECTOR center, radius;
 
-	Make_Vector(center, 0.0, 0.0, cone.dist);
+	// Inside of an open one grants EPSILON (cones.cpp)
+	room += EPSILON;
+	Make_Vector(center, 0.0, 0.0, cone.dist - EPSILON);
 	Make_Vector(radius, sqrt(Sqr(base) + room), sqrt(Sqr(base) + room), 0.0);
 
 	accel_box box = frame.RoundToScene(center, radius, 0.0);
 
-	Make_Vector(center, 0.0, 0.0, 1.0);
+	Make_Vector(center, 0.0, 0.0, 1.0 + EPSILON);
 	Make_Vector(radius, sqrt(1.0 + room), sqrt(1.0 + room), 0.0);
 	Include_Box(box, frame.RoundToScene(center, radius, 0.0));
 	bounds.SetBody(frame, box, Test_Flag(&cone, INVERTED_FLAG));

@@ -116,8 +116,7 @@ static AccelQuadric Find_Axes(const Quadric& quadric)
 	return result;
 }
 
-/// The form that a leaf test computes in the scene is wrong by this for a ray from within reach, as `form` of povaccelframe.cpp,
-/// unless the quadratic term of the ray is so small that its root is found by chance.
+/// The form that a leaf test computes in the scene is wrong by this for a ray from within reach, as `form` of povaccelframe.cpp.
 static DBL Rounding_Of_Form(const Quadric& quadric, DBL length)
 {
 	DBL size = fabs(quadric.Constant);
@@ -128,6 +127,35 @@ static DBL Rounding_Of_Form(const Quadric& quadric, DBL length)
 	return ldexp(size, -46);
 }
 
+/*
+ * What dividing by the quadratic term `a` of the ray adds to that: Quadric::Intersect
+ * does so for any a but 0. The root is wrong by 2u * |b| / a, the form there by
+ * 4u * b*b / a. Where all squares have the same sign, b*b is at most a times the form of
+ * the origin seen from the middle of the quadric, which is part of `form`. But along an
+ * axis without square and with a linear term, that of a paraboloid, b stays |linear| / 2
+ * when a vanishes. An allowance: room is made for rays of a down to 2^-40 times the least
+ * square, which is those that are off the axis by a millionth; nearer to it, hits may be
+ * anywhere. Where squares have both signs the same happens to the few rays along a line
+ * in the surface, for which no room is made.
+ */
+static DBL Rounding_Of_Root(const AccelQuadric& quadric)
+{
+	DBL largest = 0.0, least = HUGE_VAL, linear = 0.0;
+
+	for(int k = X; k <= Z; k++)
+		largest = max(largest, fabs(quadric.square[k]));
+	for(int k = X; k <= Z; k++)
+	{
+		// less is what turning the axes leaves of 0
+		if(fabs(quadric.square[k]) > ldexp(largest, -44))
+			least = min(least, fabs(quadric.square[k]));
+		else
+			linear += fabs(quadric.linear[k]);
+	}
+
+	return ldexp(Sqr(linear) / least, -13); // 0 for a plane, of which a is 0
+}
+
 /// The points where the form is not positive are inside; at a hit it is 0, so it is also not negative. Inverting turns all signs.
 void Bound_Shape(const Quadric& quadric, const AccelReach& reach, AccelBounds& bounds)
 {
@@ -136,10 +164,10 @@ void Bound_Shape(const Quadric& quadric, const AccelReach& reach, AccelBounds& b
 	Make_Vector(center, 0.0, 0.0, 0.0);
 
 	const AccelFrame frame(NULL, reach, Box_Around(center, 0.0)); // there is no transformation to keep apart
-	const DBL rounded = Rounding_Of_Form(quadric, frame.length);
 	AccelQuadric surface = Find_Axes(quadric);
+	const DBL rounded = Rounding_Of_Form(quadric, frame.length) + Rounding_Of_Root(surface);
 
-	bounds.SetSurface(frame, Infinite_Box());
+	bounds.SetSurface(AccelFrame(NULL, reach, Infinite_Box()), Infinite_Box());
 	surface.constant = quadric.Constant - rounded;
 	bounds.inside.quadrics.push_back(surface);
 	bounds.hits.quadrics.push_back(surface);
