@@ -497,7 +497,7 @@ __attribute__((noinline)) static bool grow_beside(struct grower *g, const struct
         return grow_task(g, &side[0]) && grow_task(g, &side[1]);
     const bool fine = grow_task(g, &side[0]);
     accel_team_wait(&t, g->helps ? NULL : watch, g);
-    return fine && b.fine;
+    return fine && b.fine && !atomic_load(&g->shared->team.stopped);
 }
 
 static bool grow_sides(struct grower *g, const struct task side[2])
