@@ -144,29 +144,10 @@ static void test_words(void **state)
     static const char *const right[] = {"0",     "-0",    "+1",     "1.",
                                         ".5",    "-.5e1", "1e3",    "1E+3",
                                         "1.e-3", "00012", "1e0009", "123456789012345678901"};
-    static const char *const wrong[] = {"",
-                                        ".",
-                                        "-",
-                                        "+.",
-                                        "e5",
-                                        "1e",
-                                        "1e+",
-                                        "--1",
-                                        "1.2.3",
-                                        "nan",
-                                        "inf",
-                                        "0x1",
-                                        "1,5",
-                                        "1e999",
-                                        "1d3",
-                                        "1f",
-                                        "1e5.0",
-                                        "NaN(1)",
-                                        "-1e400",
-                                        "0x",
-                                        "1_000",
-                                        "\xc2\xa0"
-                                        "1"};
+    static const char *const wrong[] = {"",       ".",     "-",     "+.",       "e5",    "1e",
+                                        "1e+",    "--1",   "1.2.3", "nan",      "inf",   "0x1",
+                                        "1,5",    "1e999", "1d3",   "1f",       "1e5.0", "NaN(1)",
+                                        "-1e400", "0x",    "1_000", "\302\2401"};
     for (size_t i = 0; i < sizeof right / sizeof right[0]; i++) {
         check_word(right[i], true);
     }

@@ -272,7 +272,7 @@ static void every_call(enum fault fault)
     static const size_t sizes[][2] = {{150000, 250000}, {250000, 150000}, {0, 200000}, {200000, 0}};
     for (int way = 0; way < WAYS; way++) {
         for (size_t s = 0; s < sizeof sizes / sizeof sizes[0]; s++) {
-            trial t = {way, sizes[s][0], sizes[s][1], fault, 0};
+            trial t = {(enum way)way, sizes[s][0], sizes[s][1], fault, 0};
             int status = 0;
             do {
                 t.at++;

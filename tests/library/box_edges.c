@@ -16,7 +16,7 @@ static void act(accel_probe *probe)
 static accel *build(const accel_box *box, const char *config)
 {
     const accel_geometry g = {.type = ACCEL_OBJECTS,
-                              .objects = {box, 1, ACCEL_ORDER_KEY, act, NULL}};
+                              .objects = {box, 1, ACCEL_ORDER_KEY, act, NULL, 0}};
     accel *a;
     assert_int_equal(accel_build(&a, &(accel_scene){&g, 1}, config, NULL, NULL), ACCEL_OK);
     return a;

@@ -121,7 +121,7 @@ static void try_work(const accel *a, const struct test_scene *s)
     const uint64_t odd = work(a, s, ray_family_find("special"));
     accel_info info;
     accel_describe(a, &info);
-    if (odd > 2.5 * (double)normal)
+    if ((double)odd > 2.5 * (double)normal)
         fail_msg("%s: special rays visit and test %llu, the mix %llu", info.config,
                  (unsigned long long)odd, (unsigned long long)normal);
 }
@@ -388,7 +388,7 @@ static void test_point_cost(void **state)
         }
     }
     const accel_geometry g = {.type = ACCEL_OBJECTS,
-                              .objects = {boxes, COUNT, ACCEL_ORDER_KEY, act, NULL}};
+                              .objects = {boxes, COUNT, ACCEL_ORDER_KEY, act, NULL, 0}};
     size_t kinds;
     const accel_kind_info *const *kind = accel_kinds(&kinds);
     for (size_t i = 0; i < kinds; i++) {
@@ -416,7 +416,8 @@ static accel_ray along_z(void)
 
 static accel *build_script(const char *config, struct script *script, accel_order how)
 {
-    const accel_geometry g = {.type = ACCEL_OBJECTS, .objects = {two_boxes, 2, how, act, script}};
+    const accel_geometry g = {.type = ACCEL_OBJECTS,
+                              .objects = {two_boxes, 2, how, act, script, 0}};
     accel *a;
     assert_int_equal(accel_build(&a, &(accel_scene){&g, 1}, config, NULL, NULL), ACCEL_OK);
     return a;
@@ -504,7 +505,7 @@ static void test_limit(void **state)
         for (size_t i = 0; i < list_count; i++) {
             struct script script[2] = {{.t = {1.5}, .count = 1}, {.t = {1.5}, .count = 1}};
             const accel_geometry g = {.type = ACCEL_OBJECTS,
-                                      .objects = {same, 2, (accel_order)how, act, script}};
+                                      .objects = {same, 2, (accel_order)how, act, script, 0}};
             const accel_ray ray = along_z();
             accel *a;
             accel_hit hit;
@@ -546,7 +547,7 @@ static void test_nested(void **state)
     for (size_t i = 0; i < list_count; i++) {
         struct nested n = {.depth = 3};
         const accel_geometry g = {.type = ACCEL_OBJECTS,
-                                  .objects = {two_boxes, 1, ACCEL_ORDER_KEY, ask_inside, &n}};
+                                  .objects = {two_boxes, 1, ACCEL_ORDER_KEY, ask_inside, &n, 0}};
         const accel_ray ray = along_z();
         accel *a, *b;
         accel_hit hit;
