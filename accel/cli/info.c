@@ -83,8 +83,9 @@ static void print_scene(const char *name, const struct loaded *loaded)
     printf("%s: %" PRIu64 " primitives in %" PRIu32 " geometries", name,
            scene_primitives(&loaded->scene), loaded->scene.count);
     if (scene_box(&loaded->scene, &box)) {
-        printf(", box (%.9g %.9g %.9g) to (%.9g %.9g %.9g)", box.lo[0], box.lo[1], box.lo[2],
-               box.hi[0], box.hi[1], box.hi[2]);
+        /* Of 0 and -0 either may be the least: adding 0 makes both 0. */
+        printf(", box (%.9g %.9g %.9g) to (%.9g %.9g %.9g)", box.lo[0] + 0.0, box.lo[1] + 0.0,
+               box.lo[2] + 0.0, box.hi[0] + 0.0, box.hi[1] + 0.0, box.hi[2] + 0.0);
     }
     if (loaded->left_out != 0) {
         printf("; %" PRIu64 " points and lines left out", loaded->left_out);
