@@ -171,8 +171,9 @@ static uint64_t try_mode(const struct mode *m, uint64_t count)
     for (uint64_t i = 0; i < count; i++) {
         struct query q;
         const accel_box small = random_box(&d), large = larger_box(&d, &small);
-        const accel_box padded = box_padded(&small);
+        accel_box padded = box_padded(&small);
         const char *what = NULL;
+        __asm__ volatile("" : "+m"(padded)); /* made before the mode is set, not after */
         mode_enter(m);
         prepare(&q, &d, &small);
         if (!grows(&q, &small, &large))
