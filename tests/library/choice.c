@@ -79,8 +79,8 @@ static void pilot_decides_no_answer(void **state)
     }
 }
 
-/* The pilot's counts are those of its rays: rays that look away from the scene visit nothing,
- * except where linear is all there is. */
+/* The pilot's counts are those of its rays: rays that look away from the scene visit nothing but
+ * the root of a wide tree, except where linear is all there is. */
 static void pilot_is_traced(void **state)
 {
     (void)state;
@@ -91,7 +91,8 @@ static void pilot_is_traced(void **state)
     const accel_hooks hooks = {.pilot = &ray, .pilot_count = 1};
     accel *a;
     const accel_info info = build_auto(&a, &s, "auto", &hooks);
-    assert_true(strcmp(info.kind, "linear") == 0 || noted(&info, ": 0 nodes, 0 tests"));
+    assert_true(strcmp(info.kind, "linear") == 0 || noted(&info, ": 0 nodes, 0 tests") ||
+                noted(&info, ": 1 nodes, 0 tests"));
     accel_free(a);
     scene_free(&s);
 }
