@@ -333,17 +333,50 @@ static DBL Farthest_Place(const SceneData& scene, const vector<accel_box>& boxes
 	return farthest;
 }
 
+/// The surfaces of all bounded boxes together.
+static DBL Surface(const vector<accel_box>& boxes)
+{
+	DBL sum = 0.0;
+
+	for(vector<accel_box>::const_iterator box = boxes.begin(); box != boxes.end(); box++)
+	{
+		const DBL x = box->hi[X] - box->lo[X], y = box->hi[Y] - box->lo[Y], z = box->hi[Z] - box->lo[Z];
+		const DBL surface = x * y + y * z + z * x;
+
+		if(surface < HUGE_VAL)
+			sum += surface;
+	}
+
+	return sum;
+}
+
+/// The largest of some cubes, in radii, whose boxes are hardly larger than those of the smallest.
+static DBL Radius_Of_Near(const vector<ObjectPtr>& objects, const AccelReach& point, const vector<accel_box>& boxes, DBL radius, DBL farthest)
+{
+	static const int exponents[] = { 20, 17 };
+	AccelReach reach = point;
+
+	for(int i = 0; i < 2; i++)
+	{
+		reach.radius = min(farthest, ldexp(radius, exponents[i]));
+		if(Surface(Find_Boxes(objects, reach)) <= 1.01 * Surface(boxes))
+			return reach.radius;
+	}
+
+	return min(farthest, ldexp(radius, 14));
+}
+
 /*
  * Rays begin at the camera, on an object or at a light. Rounding in a leaf test grows
  * with the distance of that place, in units of the size of the shape. So most of the
  * objects, 19 of 20, set the near cubes: at 2^14 radii a sor is wrong by a sixth of
- * its size, at 2^20 a sphere by less than that. The last cube holds all bounded
- * objects, and where there are others, what MAX_DISTANCE lets rays reach. From
- * farther away no structure is asked.
+ * its size, at 2^20 a sphere by a ten-thousandth. A structure for rays from farther
+ * away is built while they wait, so the near cube is as large as boxes allow. The last
+ * cube holds all bounded objects, and where there are others, what MAX_DISTANCE lets
+ * rays reach. From farther away no structure is asked.
  */
 void Find_Reaches(const SceneData& scene, const vector<ObjectPtr>& objects, AccelReach reach[ACCEL_REACHES])
 {
-	static const int exponents[ACCEL_REACHES - 1] = { 14, 20 };
 	AccelReach point;
 
 	Assign_Vector(point.center, scene.parsedCamera.Location);
@@ -366,8 +399,10 @@ void Find_Reaches(const SceneData& scene, const vector<ObjectPtr>& objects, Acce
 	for(int i = 0; i < ACCEL_REACHES; i++)
 	{
 		reach[i] = point;
-		reach[i].radius = (i == ACCEL_REACHES - 1) ? farthest : min(farthest, ldexp(radius, exponents[i]));
+		reach[i].radius = farthest;
 	}
+	reach[0].radius = Radius_Of_Near(objects, point, boxes, radius, farthest);
+	reach[1].radius = min(farthest, ldexp(radius, 20));
 }
 
 }
