@@ -350,7 +350,7 @@ static DBL Surface(const vector<accel_box>& boxes)
 	return sum;
 }
 
-/// The largest of some cubes, in radii, whose boxes are hardly larger than those of the smallest.
+/// The largest of some cubes, in radii, for which no more objects are without a box, and boxes hardly larger, than for the camera alone.
 static DBL Radius_Of_Near(const vector<ObjectPtr>& objects, const AccelReach& point, const vector<accel_box>& boxes, DBL radius, DBL farthest)
 {
 	static const int exponents[] = { 20, 17 };
@@ -359,7 +359,10 @@ static DBL Radius_Of_Near(const vector<ObjectPtr>& objects, const AccelReach& po
 	for(int i = 0; i < 2; i++)
 	{
 		reach.radius = min(farthest, ldexp(radius, exponents[i]));
-		if(Surface(Find_Boxes(objects, reach)) <= 1.01 * Surface(boxes))
+
+		const vector<accel_box> larger = Find_Boxes(objects, reach);
+
+		if((Radii(larger).size() == Radii(boxes).size()) && (Surface(larger) <= 1.01 * Surface(boxes)))
 			return reach.radius;
 	}
 
