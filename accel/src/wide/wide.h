@@ -35,7 +35,7 @@ enum { WIDE = 16, WIDE_MAX_DEPTH = 96, WIDE_BLOCK = 8 };
 
 /* The words come first: they are wanted last, but by then are there. */
 struct wide_node {
-    uint32_t child[WIDE];    /* words; children with the largest surface last */
+    uint32_t child[WIDE];    /* words; children with the smallest surface last */
     float plane[3][2][WIDE]; /* axis, lower or upper side, child; no child: infinity, -infinity */
 };
 
