@@ -36,7 +36,7 @@ preset() {
 # same_bits FOLDER: does its command trace what build/accel does?
 same_bits() {
     local kind kinds arguments=(trace teapots:quads=3 --size 96x64 --quiet)
-    mapfile -t kinds < <("$build/accel" kinds | awk '!NF { b++ } !b && /^[a-z]/ { print $1 }')
+    mapfile -t kinds < <("$build/accel" kinds | awk '!NF { b++ } b == 1 && /^[a-z]/ { print $1 }')
     [ "${#kinds[@]}" -gt 1 ] || { echo "$build/accel names no kinds" && return 1; }
     for kind in "${kinds[@]}"; do
         "$build/accel" "${arguments[@]}" -a "$kind" -o "$1/expected.exr" &&
