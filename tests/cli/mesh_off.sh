@@ -48,6 +48,8 @@ refuses words_behind.off ":7: found 'red'" "OFF\n4 4 6\n${corners}3 0 2 1 red\n$
 loads four_off.off 4 "$unit" "4OFF\n4 4 6\n0 0 0 1\n2 0 0 2\n0 1 0 1\n0 0 .25 .25\n$four"
 loads n_off.off 4 "$unit" "nOFF\n3\n4 4 6\n$corners$four"
 loads n_off_line.off 4 "$unit" "nOFF 3\n4 4 6\n$corners$four"
+refuses unclear.off ':1: found noff, allowed are NOFF' "noff\n3\n4 4 6\n$corners$four"
+refuses unclear_too.off ':1: found noff, allowed are NOFF' "stcnoff\n3\n4 4 6\n$corners$four"
 refuses infinity.off 'vertex 1, counted from 0, is at infinity' "4OFF\n4 4 6\n0 0 0 1\n2 0 0 0\n0 1 0 1\n0 0 1 1\n$four"
 refuses n_off_5.off ':2: vertices of 5 dimensions, allowed are 3' "nOFF\n5\n4 4 6\n$corners$four"
 refuses n4_off.off ':2: vertices of 3 dimensions and a divisor' "4nOFF\n3\n4 4 6\n$corners$four"

@@ -16,6 +16,8 @@
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <sys/xattr.h>
 #include <unistd.h>
@@ -66,6 +68,23 @@ static bool strike(const char *name)
 WRAP(ssize_t, write, (int file, const void *bytes, size_t count), (file, bytes, count))
 WRAP(int, fsync, (int file), (file))
 WRAP(int, rename, (const char *from, const char *to), (from, to))
+
+/* What somebody else puts there in the last moment; NULL: nobody does. */
+static const char *intruder;
+static void store(const char *name, const char *text);
+
+int __real_renameat2(int in, const char *from, int at, const char *to, unsigned how);
+int __wrap_renameat2(int in, const char *from, int at, const char *to, unsigned how);
+int __wrap_renameat2(int in, const char *from, int at, const char *to, unsigned how)
+{
+    if (intruder != NULL) {
+        store(to, intruder);
+        chmod(to, 0640);
+        intruder = NULL;
+    }
+    return strike("renameat2") ? -1 : __real_renameat2(in, from, at, to, how);
+}
+
 WRAP(int, fchmod, (int file, mode_t mode), (file, mode))
 WRAP(int, ftruncate, (int file, off_t size), (file, size))
 WRAP(int, fallocate, (int file, int mode, off_t at, off_t size), (file, mode, at, size))
@@ -348,6 +367,67 @@ static void modes_are_kept(void **state)
     }
 }
 
+/* A file that appears while ours is written is one that was there: it keeps its mode and its links.
+ */
+static void what_appears_is_kept(void **state)
+{
+    (void)state;
+    struct stat status;
+    intruder = "somebody's\n";
+    write_new("appeared");
+    assert_null(intruder);
+    assert_int_equal(stat("appeared", &status), 0);
+    assert_int_equal(status.st_mode & 07777, 0640);
+}
+
+static bool is_harmless(int number)
+{
+    static const int harmless[] = {SIGCHLD, SIGCONT,  SIGTSTP, SIGTTIN, SIGTTOU,
+                                   SIGURG,  SIGWINCH, SIGKILL, SIGSTOP};
+    for (size_t i = 0; i < sizeof harmless / sizeof harmless[0]; i++) {
+        if (number == harmless[i]) {
+            return true;
+        }
+    }
+    /* what the threads library keeps for itself */
+    return number > 31 && number < SIGRTMIN;
+}
+
+/* Every signal that ends a process, a fault of its own as well, leaves the old file and no other.
+ * Before all that writes in this process: only children may watch for what cmocka catches. */
+static void every_signal_cleans_up(void **state)
+{
+    (void)state;
+    for (int number = 1; number <= SIGRTMAX; number++) {
+        if (is_harmless(number)) {
+            continue;
+        }
+        store("signalled", "old\n");
+        fflush(NULL);
+        const pid_t child = fork();
+        if (child == 0) {
+            struct output output;
+            accel_error error;
+            const struct rlimit none = {0, 0};
+            setrlimit(RLIMIT_CORE, &none);
+            signal(number, SIG_DFL);
+            if (output_open(&output, "signalled", &error)) {
+                fputs("new\n", output.file);
+                fflush(output.file);
+                raise(number);
+            }
+            _exit(0);
+        }
+        int status;
+        assert_int_equal(waitpid(child, &status, 0), child);
+        if (!WIFSIGNALED(status) || WTERMSIG(status) != number) {
+            fail_msg("signal %d did not end it", number);
+        }
+        assert_true(holds("signalled", "old\n"));
+        assert_null(temporary_in("."));
+    }
+}
+
 /* A reader of a mesh that is ended takes nothing with it: it has the handlers but owns nothing. By
  * signals that cmocka leaves alone: those that it catches would let the child go on. */
 static void children_remove_nothing(void **state)
@@ -582,11 +662,13 @@ static void what_was_removed_is_not_listed(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_signal_cleans_up),
         cmocka_unit_test(every_call_may_fail),
         cmocka_unit_test(every_call_may_be_interrupted),
         cmocka_unit_test(every_call_may_be_the_last),
         cmocka_unit_test(attributes_are_kept),
         cmocka_unit_test(modes_are_kept),
+        cmocka_unit_test(what_appears_is_kept),
         cmocka_unit_test(children_remove_nothing),
         cmocka_unit_test(long_names_are_names),
         cmocka_unit_test(a_report_is_of_one_piece),

@@ -15,6 +15,7 @@
 /* What the first word says. */
 typedef struct header {
     bool texture, colour, normal, four, dimension, binary;
+    bool unclear; /* noff: NOFF or nOFF? */
     uint64_t vertices, faces;
 } header;
 
@@ -42,6 +43,7 @@ static bool take_keyword(mesh_text *text, header *h)
         !(mesh_word_ends(text, at + 3) || mesh_is(at[3], MESH_DIGIT))) {
         return false;
     }
+    h->unclear = h->dimension && *at == 'o';
     text->at = at + 3;
     return true;
 }
@@ -346,6 +348,11 @@ bool mesh_read_off(mesh_reader *r)
             return mesh_expect(r, "[ST][C][N][4][n]OFF, or the numbers of vertices, faces, edges");
         }
         h = (header){0};
+    }
+    if (h.unclear) {
+        return mesh_refuse_line(r, r->text.line,
+                                "found noff, allowed are NOFF, with normals, and nOFF, with a "
+                                "number of dimensions");
     }
     h.binary = take_binary(&r->text);
     if (h.binary && h.dimension) {

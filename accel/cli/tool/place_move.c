@@ -121,11 +121,29 @@ bool place_dress(int descriptor, const char *path, const struct stat *old)
            !has_attributes(names, listxattr(path, names, sizeof names));
 }
 
+/* Where nothing stands: what somebody else puts there meanwhile is not replaced unseen. */
+static bool place_first(const char *temporary, const char *path)
+{
+    if (renameat2(AT_FDCWD, temporary, AT_FDCWD, path, RENAME_NOREPLACE) == 0) {
+        return true;
+    }
+    /* not every file system knows it */
+    return (errno == EINVAL || errno == ENOSYS) && rename(temporary, path) == 0;
+}
+
 static enum placed place(int descriptor, const char *temporary, const char *path)
 {
     struct stat old;
     if (lstat(path, &old) != 0) {
-        return errno == ENOENT && rename(temporary, path) == 0 ? PLACED : NOT_PLACED;
+        if (errno != ENOENT) {
+            return NOT_PLACED;
+        }
+        if (place_first(temporary, path)) {
+            return PLACED;
+        }
+        if (errno != EEXIST || lstat(path, &old) != 0) {
+            return NOT_PLACED;
+        }
     }
     if (!S_ISREG(old.st_mode)) {
         errno = EEXIST;
