@@ -62,6 +62,7 @@ struct candidate {
 /* What is the same for all kinds. */
 struct chooser {
     struct build *build;
+    accel_hooks hooks; /* of the builds over the sample; the chooser is their user */
     struct sample sample;
     double triangles; /* share of the primitives */
     double call;      /* nanoseconds of a call of an object, mean */
@@ -107,8 +108,11 @@ static accel_ray first_ray(const struct chooser *c, size_t i)
     return ray;
 }
 
-/* Traces the pilot; fills in the counts. */
-static void fly_pilot(struct chooser *c, const accel *a, struct candidate *kind)
+/* Rays between two looks at the clock: linear search may take a millisecond for so many. */
+enum { RAYS_A_TICK = 32 };
+
+/* Traces the pilot; fills in the counts. False if the build is cancelled. */
+static bool fly_pilot(struct chooser *c, const accel *a, struct candidate *kind)
 {
     accel_query q = {0};
     const size_t count = pilot_count(c->build->hooks);
@@ -117,6 +121,8 @@ static void fly_pilot(struct chooser *c, const accel *a, struct candidate *kind)
     for (size_t i = 0; i < count; i++, rays++) {
         const accel_ray ray = first_ray(c, i);
         accel_hit hit;
+        if (i % RAYS_A_TICK == 0 && !accel_build_tick(c->build, 0.0))
+            return false;
         if (!accel_closest(a, &ray, &hit, &q))
             continue;
         double from[3], dir[3];
@@ -132,6 +138,7 @@ static void fly_pilot(struct chooser *c, const accel *a, struct candidate *kind)
     kind->nodes = (double)q.nodes / rays;
     kind->tests = (double)q.tests / rays;
     kind->calls = (double)c->sample.calls / rays;
+    return true;
 }
 
 /* -------------------------------------------------------------------- prediction ---- */
@@ -192,20 +199,46 @@ static void weigh_primitives(struct chooser *c)
 
 /* ------------------------------------------------------------------------ choice ---- */
 
+static void *resize_of_host(void *user, void *old, size_t from, size_t to)
+{
+    const accel_hooks *host = ((struct chooser *)user)->build->hooks;
+    return host->resize(host->user, old, from, to);
+}
+
+/* How far one kind's build is says nothing of the choice: what is told is how many are tried. */
+static bool go_on(void *user, const char *phase, double done)
+{
+    (void)phase, (void)done;
+    return accel_build_tick(((struct chooser *)user)->build, 0.0);
+}
+
+static accel_hooks hooks_of(struct chooser *c)
+{
+    const accel_hooks *host = c->build->hooks;
+    return (accel_hooks){.user = c,
+                         .resize = host->resize ? resize_of_host : NULL,
+                         .progress = go_on,
+                         .threads = host->threads};
+}
+
 static bool try_kind(struct chooser *c, struct candidate *k)
 {
     accel *a;
-    struct build *build = c->build;
-    struct memory *m = &build->a->memory;
-    const accel_hooks hooks = {.user = build->hooks->user, .resize = build->hooks->resize};
-    if (accel_build(&a, &c->sample.scene, k->kind->info.name, &hooks, build->error) != ACCEL_OK)
+    accel_error error;
+    struct memory *m = &c->build->a->memory;
+    const accel_status status =
+        accel_build(&a, &c->sample.scene, k->kind->info.name, &c->hooks, &error);
+    if (status != ACCEL_OK) {
+        if (status != ACCEL_CANCELLED) /* that has been told already, as the choice's own */
+            *c->build->error = error;
         return false;
-    fly_pilot(c, a, k);
+    }
+    const bool fine = fly_pilot(c, a, k);
     k->bytes = (double)a->memory.bytes / (double)c->sample.count;
     m->peak = m->bytes + a->memory.peak > m->peak ? m->bytes + a->memory.peak : m->peak;
     accel_free(a);
     k->seconds = predict(c, k);
-    return true;
+    return fine;
 }
 
 /* Tries all kinds that may be chosen; the best comes first. */
@@ -262,6 +295,7 @@ static bool choose(struct build *build, const struct accel_kind **kind)
     const double rays = build->a->option[RAYS], n = (double)build->a->prims.bounded.count;
     struct chooser c = {.build = build};
     *kind = linear;
+    c.hooks = hooks_of(&c);
     weigh_primitives(&c);
     if (1e-9 * rays * n * linear->cost.triangle < WORTH_CHOOSING) {
         accel_build_note(build,
