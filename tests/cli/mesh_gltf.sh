@@ -223,9 +223,12 @@ instances 60 >instances_60.gltf
 cases=$((cases + 2))
 check_loads instances_60.gltf 4800000 '0 0 0, 200 200 59' ''
 says 'instances_60.gltf: 4800000 primitives in 60 geometries'
-instances 600 >instances_600.gltf
-(ulimit -v 1000000 && timeout 60 "$accel" info instances_600.gltf -a linear) >out 2>err &&
-    fail "600 instances fit into 1 GB"
-grep -qE '^accel info: instances_600.gltf: shows 600 meshes of 48000000 triangles together, which take [0-9]+ MB of memory, but [0-9]+ MB are free: free some; nothing was loaded$' err ||
-    fail "600 instances in 1 GB: $(cat err)"
+# sanitizers map more than the limit before the command begins
+if (ulimit -v 1000000 && "$accel" --version) >out 2>&1; then
+    instances 600 >instances_600.gltf
+    (ulimit -v 1000000 && timeout 60 "$accel" info instances_600.gltf -a linear) >out 2>err &&
+        fail "600 instances fit into 1 GB"
+    grep -qE '^accel info: instances_600.gltf: shows 600 meshes of 48000000 triangles together, which take [0-9]+ MB of memory, but [0-9]+ MB are free: free some; nothing was loaded$' err ||
+        fail "600 instances in 1 GB: $(cat err)"
+fi
 finish_cases
