@@ -31,6 +31,7 @@
 
 #include "backend/accel/povaccel.h"
 #include "backend/accel/povaccelbox.h"
+#include "backend/accel/povaccelcsg.h"
 #include "backend/accel/povaccelquery.h"
 #include "backend/control/messagefactory.h"
 #include "backend/control/renderbackend.h"
@@ -47,14 +48,6 @@ namespace pov
 
 using boost::format;
 
-static bool Never_Hit(const ObjectBase *object)
-{
-	const LightSource *light = dynamic_cast<const LightSource *>(object);
-
-	return (light != NULL) && light->children.empty();
-}
-
-
 
 /*****************************************************************************
  *
@@ -67,6 +60,7 @@ Accelerator::Accelerator(POVMS_Object& options) :
 	mentioned(options.Exist(kPOVAttrib_Accelerator) || options.Exist(kPOVAttrib_AcceleratorVerify)),
 	verify(options.TryGetBool(kPOVAttrib_AcceleratorVerify, false)),
 	lightsLeftOut(0),
+	interiorsExist(false),
 	sceneData(NULL)
 {
 	const char *environment = getenv("POV_ACCELERATOR");
@@ -78,6 +72,8 @@ Accelerator::~Accelerator()
 {
 	for(int i = 0; i < ACCEL_REACHES; i++)
 		accel_free(parts[i].structure);
+	for(vector<AccelCsg *>::iterator i = csg.begin(); i != csg.end(); i++)
+		delete *i;
 }
 
 MessageFactory Accelerator::Messages(const SceneData& scene)
@@ -259,23 +255,26 @@ void Accelerator::BuildPart(Part& part, const accel_hooks *hooks, accel_error& e
 	part.built = (accel_build(&part.structure, &library_scene, config.c_str(), hooks, &error) == ACCEL_OK);
 }
 
-void Accelerator::Build(const SceneData& scene, Task& task)
+void Accelerator::TakeObjects(const SceneData& scene)
 {
+	AccelReach reach[ACCEL_REACHES];
+
 	for(vector<ObjectPtr>::const_iterator i = scene.objects.begin(); i != scene.objects.end(); i++)
 	{
-		if(Never_Hit(*i) == false)
+		if(Is_Dark_Light(*i) == false)
 			objects.push_back(*i);
 	}
 	lightsLeftOut = scene.objects.size() - objects.size();
 	sceneData = &scene;
 
-	AccelReach reach[ACCEL_REACHES];
-
 	Find_Reaches(scene, objects, reach);
 	for(int i = 0; i < ACCEL_REACHES; i++)
 		parts[i].reach = reach[i];
-	beyondBoxes = Objects_Beyond_Boxes(objects, reach[0]);
+	Accel_Take_Csg(objects, reach[0], csg);
+}
 
+void Accelerator::Build(const SceneData& scene, Task& task)
+{
 	const vector<accel_ray> pilot = Camera_Pilot(scene.parsedCamera);
 	AccelProgress progress(scene, task);
 	accel_hooks hooks = accel_hooks();
@@ -290,10 +289,22 @@ void Accelerator::Build(const SceneData& scene, Task& task)
 	if(parts[0].built == false)
 		Throw_Library_Error(error);
 
-	vector<uint32_t> beyond;
+	FindBeyondBoxes();
+}
 
-	std::set_union(beyondBoxes.begin(), beyondBoxes.end(), parts[0].unbounded.begin(), parts[0].unbounded.end(), std::back_inserter(beyond));
-	beyondBoxes.swap(beyond);
+/// What a search for the objects around a point has to ask beside those whose box holds it.
+void Accelerator::FindBeyondBoxes()
+{
+	const vector<uint32_t>& unbounded = parts[0].unbounded;
+
+	for(vector<ObjectPtr>::const_iterator i = objects.begin(); i != objects.end(); i++)
+		interiorsExist = interiorsExist || ((*i)->interior != NULL);
+	for(int search = 0; interiorsExist && (search <= ACCEL_OF_PHOTONS); search++)
+	{
+		const vector<uint32_t> beyond = Objects_Beyond_Boxes(objects, parts[0].reach, AccelContainerSearch(search));
+
+		std::set_union(beyond.begin(), beyond.end(), unbounded.begin(), unbounded.end(), std::back_inserter(beyondBoxes[search]));
+	}
 }
 
 static boost::mutex buildMutex;
@@ -440,16 +451,20 @@ static bool Note_Object(void *user, accel_id id)
 	return true;
 }
 
-void Accelerator::FindContainingInteriors(const VECTOR point, TraceThreadData *thread, RayInteriorVector& interiors) const
+void Accelerator::FindContainingInteriors(const VECTOR point, AccelContainerSearch search, TraceThreadData *thread, RayInteriorVector& interiors) const
 {
-	AccelPointQuery query(objects, point, thread);
+	if(interiorsExist == false)
+		return;
+
+	AccelPointQuery query(objects, point, search, thread);
 	accel_query counters = { NULL, 0, 0, 0, 0 };
 	RenderStatistics& stats = thread->Stats();
+	const vector<uint32_t>& beyond = beyondBoxes[search];
 	vector<uint32_t> named, candidates;
 
 	accel_point(parts[0].structure, point, Note_Object, &named, &counters);
-	std::set_union(named.begin(), named.end(), beyondBoxes.begin(), beyondBoxes.end(), std::back_inserter(candidates));
-	if(counters.refused > 0)
+	std::set_union(named.begin(), named.end(), beyond.begin(), beyond.end(), std::back_inserter(candidates));
+	if((counters.refused > 0) || !parts[0].reach.Holds(point))
 		query.SearchLinearly();
 	else
 	{
@@ -465,7 +480,7 @@ void Accelerator::FindContainingInteriors(const VECTOR point, TraceThreadData *t
 	stats[Accel_Rays_Refused] += counters.refused;
 
 	if(verify)
-		VerifyInteriors(point, thread, query.found);
+		VerifyInteriors(query);
 	for(vector<ObjectPtr>::const_iterator object = query.found.begin(); object != query.found.end(); object++)
 		interiors.push_back((*object)->interior);
 }
@@ -539,6 +554,28 @@ static std::string Describe_Far(const accel *structure, POV_ULONG queries, DBL r
 	           queries % radius % ((info.bytes + 1023) / 1024) % info.seconds);
 }
 
+/// What was built inside CSG objects, and what it spared.
+static std::string Describe_Csg(const vector<AccelCsg *>& csg, const RenderStatistics& stats)
+{
+	const POV_ULONG queries = stats[Accel_Csg_Queries], spared = stats[Accel_Csg_Parts_Passed_Over];
+	size_t built = 0, parts = 0, bytes = 0;
+
+	for(vector<AccelCsg *>::const_iterator i = csg.begin(); i != csg.end(); i++)
+	{
+		if((*i)->IsBuilt())
+		{
+			built++;
+			parts += (*i)->PartCount();
+			bytes += (*i)->Bytes();
+		}
+	}
+	if(csg.empty())
+		return "";
+
+	return str(format("Accelerator CSG:      %d of %d built over %d parts, %d KiB; %d queries passed over %d parts\n") % built % csg.size() % parts %
+	           ((bytes + 1023) / 1024) % queries % spared);
+}
+
 void Accelerator::GetStatistics(POVMS_Object& renderStats, const RenderStatistics& stats) const
 {
 	const POV_ULONG outside = stats[Accel_Hits_Outside];
@@ -554,6 +591,7 @@ void Accelerator::GetStatistics(POVMS_Object& renderStats, const RenderStatistic
 		if(parts[i].built)
 			text += Describe_Far(parts[i].structure, parts[i].queries, parts[i - 1].reach.radius);
 	}
+	text += Describe_Csg(csg, stats);
 	if(verified > 0)
 		text += str(format("Accelerator verified: %13d   Differences:     %15d\n") % verified % different);
 	if(refused > 0)

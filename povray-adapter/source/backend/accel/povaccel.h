@@ -25,16 +25,19 @@
 #include "backend/frame.h"
 #include "backend/support/statistics.h"
 #include "backend/accel/accel.h"
+#include "backend/accel/povaccelbox.h"
 #include "backend/accel/povaccelframe.h"
 
 namespace pov
 {
 
+class AccelCsg;
 class MessageFactory;
 class SceneData;
 class Task;
 class Trace;
 struct AccelQuery;
+struct AccelPointQuery;
 
 class Accelerator
 {
@@ -49,7 +52,10 @@ class Accelerator
 		/// Warns of options without effect. Throws if the configuration is not valid.
 		void CheckOptions(const SceneData& scene) const;
 
-		/// Builds the structure over the objects of the scene. Throws if it cannot, or if the user stops the task.
+		/// Learns the objects of the scene, and gives structures to the CSG objects of many parts.
+		void TakeObjects(const SceneData& scene);
+
+		/// Builds the structure over the objects taken. Throws if it cannot, or if the user stops the task.
 		void Build(const SceneData& scene, Task& task);
 
 		/// Finds the object nearest along a ray, nearer than bestisect.Depth, as a linear search would.
@@ -58,7 +64,7 @@ class Accelerator
 		                      const RayObjectCondition& precondition, const RayObjectCondition& postcondition) const;
 
 		/// Appends the interiors of all objects around a point, as a linear search would.
-		void FindContainingInteriors(const VECTOR point, TraceThreadData *thread, RayInteriorVector& interiors) const;
+		void FindContainingInteriors(const VECTOR point, AccelContainerSearch search, TraceThreadData *thread, RayInteriorVector& interiors) const;
 
 		/// Describes the structure for the parser statistics.
 		void GetStatistics(POVMS_Object& parserStats) const;
@@ -81,8 +87,12 @@ class Accelerator
 		vector<ObjectPtr> objects;
 		/// number of light sources left out, as no ray can hit them
 		size_t lightsLeftOut;
-		/// objects that points outside their box may be in, or that have none, in the order of the scene
-		vector<uint32_t> beyondBoxes;
+		/// of each search: objects that points outside their box may be in, or that have none, in the order of the scene
+		vector<uint32_t> beyondBoxes[ACCEL_OF_PHOTONS + 1];
+		/// has any object an interior?
+		bool interiorsExist;
+		/// the structures inside CSG objects
+		vector<AccelCsg *> csg;
 		/// for messages from the render threads, which outlive no scene
 		const SceneData *sceneData;
 
@@ -112,7 +122,8 @@ class Accelerator
 		bool Find(Trace& trace, AccelQuery& query) const;
 		bool FindInPart(const Part& part, AccelQuery& query, accel_query& counters, uint32_t& index) const;
 		void Verify(Trace& trace, const AccelQuery& query, const Part *part, DBL limit, bool found, uint32_t index) const;
-		void VerifyInteriors(const VECTOR point, TraceThreadData *thread, const vector<ObjectPtr>& found) const;
+		void VerifyInteriors(const AccelPointQuery& query) const;
+		void FindBeyondBoxes();
 		void ReportOutside(const AccelQuery& query, const accel_box& box, uint32_t index, DBL depth) const;
 		void ReportDifference(TraceThreadData *thread, const std::string& query, const std::string& ours, const std::string& linear) const;
 		std::string DescribeObject(uint32_t index) const;

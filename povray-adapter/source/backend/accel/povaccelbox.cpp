@@ -63,8 +63,7 @@ namespace pov
 
 static void Find_Bounds(const ObjectBase *object, const AccelReach& reach, AccelBounds& bounds);
 
-/// No test ever finds these.
-static bool Is_Dark_Light(const ObjectBase *object)
+bool Is_Dark_Light(const ObjectBase *object)
 {
 	const LightSource *light = dynamic_cast<const LightSource *>(object);
 
@@ -260,28 +259,57 @@ vector<accel_box> Find_Boxes(const vector<ObjectPtr>& objects, const AccelReach&
 	return boxes;
 }
 
-/// InitRayContainerState asks BBox before Inside, and leaves clips out.
-vector<uint32_t> Objects_Beyond_Boxes(const vector<ObjectPtr>& objects, const AccelReach& reach)
+vector<accel_box> Find_Side_Boxes(const vector<ObjectPtr>& objects, const AccelReach& reach, bool inside)
+{
+	vector<accel_box> boxes;
+
+	for(vector<ObjectPtr>::const_iterator object = objects.begin(); object != objects.end(); object++)
+	{
+		AccelBounds bounds;
+
+		Find_Bounds(*object, reach, bounds);
+		boxes.push_back(inside ? bounds.inside.Box() : bounds.outside.Box());
+	}
+
+	return boxes;
+}
+
+/// POV-Ray's own box of an object, as far as points may be taken to lie in it.
+static accel_box Box_Of_Stock(const ObjectBase *object)
+{
+	VECTOR low, high;
+
+	Make_min_max_from_BBox(low, high, object->BBox);
+
+	accel_box box = Box_Between(low, high);
+
+	for(int axis = X; axis <= Z; axis++)
+	{
+		box.lo[axis] -= ldexp(max(fabs(low[axis]), fabs(high[axis])), -20);
+		box.hi[axis] += ldexp(max(fabs(low[axis]), fabs(high[axis])), -20);
+	}
+
+	return box;
+}
+
+vector<uint32_t> Objects_Beyond_Boxes(const vector<ObjectPtr>& objects, const AccelReach& reach, AccelContainerSearch search)
 {
 	const vector<accel_box> boxes = Find_Boxes(objects, reach);
 	vector<uint32_t> beyond;
 
 	for(size_t i = 0; i < objects.size(); i++)
 	{
+		if(objects[i]->interior == NULL)
+			continue;
+
 		AccelBounds bounds;
-		VECTOR low, high;
 
 		Find_Own_Bounds(objects[i], reach, bounds);
-		Make_min_max_from_BBox(low, high, objects[i]->BBox);
 
-		accel_box box = Box_Between(low, high);
+		accel_box box = bounds.inside.Box();
 
-		for(int axis = X; axis <= Z; axis++)
-		{
-			box.lo[axis] -= ldexp(max(fabs(low[axis]), fabs(high[axis])), -20);
-			box.hi[axis] += ldexp(max(fabs(low[axis]), fabs(high[axis])), -20);
-		}
-		Intersect_Box(box, bounds.inside.Box());
+		if(search == ACCEL_OF_CAMERA_RAYS)
+			Intersect_Box(box, Box_Of_Stock(objects[i]));
 		if(!Is_Empty(box) && !Box_In_Box(box, boxes[i]))
 			beyond.push_back(i);
 	}

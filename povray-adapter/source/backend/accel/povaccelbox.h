@@ -22,6 +22,13 @@ namespace pov
 
 class SceneData;
 
+/// Stock looks for the interiors around a point in two places, and leaves clips out in both.
+enum AccelContainerSearch
+{
+	ACCEL_OF_CAMERA_RAYS, // TracePixel::InitRayContainerState: the object's BBox has to hold the point as well
+	ACCEL_OF_PHOTONS      // PhotonShootingTask::ShootPhotonsAtObject
+};
+
 /// Where rays begin that boxes are made for, each within the next. Most begin in the first, near the camera, where rounding is
 /// small.
 void Find_Reaches(const SceneData& scene, const vector<ObjectPtr>& objects, AccelReach reach[ACCEL_REACHES]);
@@ -30,8 +37,14 @@ void Find_Reaches(const SceneData& scene, const vector<ObjectPtr>& objects, Acce
 /// and the lower side above the upper one if it has no hits.
 vector<accel_box> Find_Boxes(const vector<ObjectPtr>& objects, const AccelReach& reach);
 
-/// The objects that a point outside their box for this reach may be in, as far as TracePixel::InitRayContainerState tells.
-vector<uint32_t> Objects_Beyond_Boxes(const vector<ObjectPtr>& objects, const AccelReach& reach);
+/// A box for each object that holds all points for which Inside_Object answers `inside`, as Find_Boxes gives those of hits.
+vector<accel_box> Find_Side_Boxes(const vector<ObjectPtr>& objects, const AccelReach& reach, bool inside);
+
+/// Is there nothing that a ray can hit or a point can be in? So it is with light sources without looks_like.
+bool Is_Dark_Light(const ObjectBase *object);
+
+/// The objects with an interior that a point outside their box for this reach may be in, as far as a container search tells.
+vector<uint32_t> Objects_Beyond_Boxes(const vector<ObjectPtr>& objects, const AccelReach& reach, AccelContainerSearch search);
 
 }
 

@@ -18,6 +18,7 @@
 #include "backend/scene/objects.h"
 #include "backend/support/statistics.h"
 #include "backend/accel/accel.h"
+#include "backend/accel/povaccelbox.h"
 
 namespace pov
 {
@@ -79,20 +80,22 @@ class AccelHitObserver
 /// POV-Ray's linear search, as in Trace::FindIntersection. Improves best and index.
 bool Search_Linearly(Trace& trace, const AccelQuery& query, Intersection& best, uint32_t& index, AccelHitObserver *observer = NULL);
 
-/// A search for the objects around a point.
+/// A search for the objects with an interior around a point.
 struct AccelPointQuery
 {
 	const vector<ObjectPtr>& objects;
 	const DBL *point;
+	AccelContainerSearch search;
 	TraceThreadData *thread;
 	vector<ObjectPtr> found;
 
-	AccelPointQuery(const vector<ObjectPtr>& objs, const VECTOR p, TraceThreadData *t) : objects(objs), point(p), thread(t) { }
+	AccelPointQuery(const vector<ObjectPtr>& objs, const VECTOR p, AccelContainerSearch s, TraceThreadData *t) :
+		objects(objs), point(p), search(s), thread(t) { }
 
-	/// Tests an object as TracePixel::InitRayContainerState does. The box of each that passes holds the point.
+	/// Tests an object as stock does.
 	void Test(ObjectPtr object)
 	{
-		if((object->interior != NULL) && Inside_BBox(point, object->BBox) && object->Inside(point, thread))
+		if((object->interior != NULL) && ((search == ACCEL_OF_PHOTONS) || Inside_BBox(point, object->BBox)) && object->Inside(point, thread))
 			found.push_back(object);
 	}
 

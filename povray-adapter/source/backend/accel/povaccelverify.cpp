@@ -23,6 +23,7 @@
 #include "backend/frame.h"
 
 #include "backend/accel/povaccel.h"
+#include "backend/accel/povaccelplain.h"
 #include "backend/accel/povaccelquery.h"
 #include "backend/control/messagefactory.h"
 #include "backend/scene/scene.h"
@@ -91,6 +92,7 @@ void Accelerator::Verify(Trace& trace, const AccelQuery& query, const Part *part
 {
 	Intersection linear;
 	uint32_t linearIndex = ACCEL_NONE;
+	AccelPlain plain(query.thread);
 	BoxCheck check(*this, query, (part != NULL) ? part->boxes : parts[0].boxes);
 
 	linear.Depth = limit;
@@ -144,19 +146,22 @@ std::string Accelerator::Describe(bool found, uint32_t index, const Intersection
 	return DescribeObject(index) + " at " + depth;
 }
 
-void Accelerator::VerifyInteriors(const VECTOR point, TraceThreadData *thread, const vector<ObjectPtr>& found) const
+void Accelerator::VerifyInteriors(const AccelPointQuery& query) const
 {
-	AccelPointQuery linear(objects, point, thread);
+	AccelPointQuery linear(query.objects, query.point, query.search, query.thread);
+	const DBL *point = query.point;
+
+	AccelPlain plain(query.thread);
 
 	linear.SearchLinearly();
-	thread->Stats()[Accel_Queries_Verified]++;
-	if(found == linear.found)
+	query.thread->Stats()[Accel_Queries_Verified]++;
+	if(query.found == linear.found)
 		return;
 
 	char text[256];
 
 	snprintf(text, sizeof(text), "point <%.17g, %.17g, %.17g> (%a %a %a)", point[X], point[Y], point[Z], point[X], point[Y], point[Z]);
-	ReportDifference(thread, text, str(format("%d objects around it") % found.size()), str(format("%d objects") % linear.found.size()));
+	ReportDifference(query.thread, text, str(format("%d objects around it") % query.found.size()), str(format("%d objects") % linear.found.size()));
 }
 
 void Accelerator::ReportDifference(TraceThreadData *thread, const std::string& query, const std::string& ours, const std::string& linear) const

@@ -1,0 +1,345 @@
+/*******************************************************************************
+ * povaccelcsg.cpp
+ *
+ * SPDX-License-Identifier: AGPL-3.0-or-later
+ *
+ * This module answers for CSG objects of many parts, by a structure over the boxes
+ * of their parts: which parts may a ray hit, and for which may a point be inside or
+ * outside? POV-Ray tests all of them. The candidates go through the tests of csg.cpp
+ * in the same order, so that the hits, and their order on the stack, are the same.
+ *
+ * What it rests on is what the boxes of povaccelbox.cpp say. It costs about as much
+ * as two tests of a part, so few parts are left to POV-Ray. It is bad at parts that
+ * overlap everywhere. It is a derivative work of POV-Ray 3.7.0.10; see LICENSE.
+ *******************************************************************************/
+
+#include <algorithm>
+#include <set>
+
+// frame.h must always be the first POV file included (pulls in platform config)
+#include "backend/frame.h"
+
+#include "backend/accel/povaccelbox.h"
+#include "backend/accel/povaccelcsg.h"
+#include "backend/accel/povaccelregion.h"
+#include "backend/scene/objects.h"
+#include "backend/scene/threaddata.h"
+#include "backend/shape/csg.h"
+
+// this must be the last file included
+#include "base/povdebug.h"
+
+namespace pov
+{
+
+/*****************************************************************************
+ *
+ * The structure
+ *
+ *****************************************************************************/
+
+AccelCsg::AccelCsg(CompoundObject& o, AccelOperation op, const AccelReach& r) :
+	object(o), parts(o.children), operation(op), reach(r), structure(NULL), built(false)
+{
+}
+
+AccelCsg::~AccelCsg()
+{
+	accel_free(structure);
+}
+
+size_t AccelCsg::Bytes() const
+{
+	accel_info info;
+
+	if(structure == NULL)
+		return 0;
+	accel_describe(structure, &info);
+
+	return info.bytes;
+}
+
+/// Notes a part whose box the ray meets, and reports no hit, so that all others are offered too.
+static void Note_Part(accel_probe *probe)
+{
+	reinterpret_cast<AccelPlaces *>(probe->query->user)->push_back(probe->prim);
+}
+
+void AccelCsg::Build() const
+{
+	vector<accel_box> boxes = Find_Boxes(parts, reach);
+	const vector<accel_box> sides = Find_Side_Boxes(parts, reach, operation != ACCEL_INTERSECTION);
+
+	for(size_t i = 0; i < boxes.size(); i++)
+	{
+		Include_Box(boxes[i], sides[i]);
+		if(Is_Dark_Light(parts[i]))
+			boxes[i] = Empty_Box();
+		else if(!Is_Finite(boxes[i]) && !Is_Empty(boxes[i]))
+		{
+			always.push_back(i);
+			boxes[i] = Empty_Box();
+		}
+	}
+
+	accel_geometry geometry = accel_geometry();
+	geometry.type = ACCEL_OBJECTS;
+	geometry.objects.boxes = boxes.data();
+	geometry.objects.count = boxes.size();
+	geometry.objects.order = ACCEL_ORDER_RAW;
+	geometry.objects.intersect = Note_Part;
+
+	const accel_scene scene = { &geometry, 1 };
+	accel_error error;
+
+	if(accel_build(&structure, &scene, "bvh", NULL, &error) != ACCEL_OK)
+	{
+		// no memory, say: then all parts are asked, as ever
+		always.clear();
+		for(size_t i = 0; i < parts.size(); i++)
+			always.push_back(i);
+	}
+}
+
+void AccelCsg::Prepare() const
+{
+	if(built == false)
+	{
+		boost::mutex::scoped_lock lock(mutex);
+
+		if(built == false)
+		{
+			Build();
+			built = true;
+		}
+	}
+}
+
+bool AccelCsg::Answers(const VECTOR where, const TraceThreadData *thread) const
+{
+	return reach.Holds(where) && (thread->accelPlain == false);
+}
+
+/// Adds those that are always near, in order.
+static void Add_Rising(AccelPlaces& near, const vector<uint32_t>& always)
+{
+	const size_t count = near.size();
+
+	near.insert(near.end(), always.begin(), always.end());
+	std::inplace_merge(near.begin(), near.begin() + count, near.end());
+}
+
+static void Name_All(AccelPlaces& near, size_t count)
+{
+	near.clear();
+	for(size_t i = 0; i < count; i++)
+		near.push_back(i);
+}
+
+/// The parts that a ray may hit. Only subsurface rays count hits that are nearer than MIN_ISECT_DEPTH.
+void AccelCsg::FindNear(const Ray& ray, AccelPlaces& near, TraceThreadData *thread) const
+{
+	accel_query query = { &near, 0, 0, 0, 0 };
+	accel_ray line;
+	accel_hit hit;
+
+	Prepare();
+	if(structure != NULL)
+	{
+		Assign_Vector(line.org, ray.Origin);
+		Assign_Vector(line.dir, ray.Direction);
+		line.tmin = ray.IsSubsurfaceRay() ? -HUGE_VAL : 0.0;
+		line.tmax = HUGE_VAL;
+		line.skip.geom = line.skip.prim = ACCEL_NONE;
+		accel_closest(structure, &line, &hit, &query);
+		if(query.refused > 0)
+		{
+			Name_All(near, parts.size());
+			return;
+		}
+		std::sort(near.begin(), near.end());
+		near.erase(std::unique(near.begin(), near.end()), near.end());
+	}
+	thread->Stats()[Accel_Csg_Queries]++;
+	thread->Stats()[Accel_Csg_Parts_Passed_Over] += parts.size() - always.size() - near.size();
+	Add_Rising(near, always);
+}
+
+/// The library names in the order of the parts.
+static bool Note_Place(void *user, accel_id id)
+{
+	reinterpret_cast<AccelPlaces *>(user)->push_back(id.prim);
+	return true;
+}
+
+/// The parts that a point may be inside of, or outside of in an intersection.
+void AccelCsg::FindNear(const VECTOR point, AccelPlaces& near) const
+{
+	accel_query query = { NULL, 0, 0, 0, 0 };
+
+	Prepare();
+	if((structure != NULL) && reach.Holds(point))
+		accel_point(structure, point, Note_Place, &near, &query);
+	else
+		query.refused = 1;
+	if(query.refused > 0)
+		Name_All(near, parts.size());
+	else
+		Add_Rising(near, always);
+}
+
+
+
+/*****************************************************************************
+ *
+ * The functions of csg.cpp
+ *
+ *****************************************************************************/
+
+/// Test_Ray_Flags and, with `shadow`, Test_Ray_Flags_Shadow of csg.cpp.
+static bool May_Be_Seen(const Ray& ray, const ObjectBase *part, bool shadow)
+{
+	if(ray.IsPhotonRay() || (shadow && ray.IsShadowTestRay()))
+	{
+		if(!Test_Flag(part, NO_SHADOW_FLAG))
+			return true;
+	}
+
+	return !ray.IsPhotonRay() &&
+	       (!Test_Flag(part, NO_IMAGE_FLAG) || !ray.IsImageRay() || (!shadow && ray.IsPrimaryRay())) &&
+	       (!Test_Flag(part, NO_REFLECTION_FLAG) || !ray.IsReflectionRay()) &&
+	       (!Test_Flag(part, NO_RADIOSITY_FLAG) || !ray.IsRadiosityRay());
+}
+
+/// Does a hit of the part at that place count, as far as the other parts tell?
+bool AccelCsg::IsSurface(const VECTOR point, uint32_t place, const Ray& ray, TraceThreadData *thread) const
+{
+	AccelPlaces near;
+
+	if(operation == ACCEL_UNION)
+		return true;
+	FindNear(point, near);
+	for(AccelPlaces::const_iterator i = near.begin(); i != near.end(); i++)
+	{
+		if((*i == place) || Is_Dark_Light(parts[*i]))
+			continue;
+		if(operation == ACCEL_INTERSECTION)
+		{
+			if(Inside_Object(point, parts[*i], thread) == false)
+				return false;
+		}
+		else if(May_Be_Seen(ray, parts[*i], true) && Inside_Object(point, parts[*i], thread))
+			return false;
+	}
+
+	return true;
+}
+
+/// Adds the hits of the part at that place.
+bool AccelCsg::AddHits(uint32_t place, const Ray& ray, IStack& local, IStack& depths, TraceThreadData *thread) const
+{
+	ObjectPtr part = parts[place];
+	bool found = false;
+
+	if((operation != ACCEL_INTERSECTION) && (May_Be_Seen(ray, part, operation == ACCEL_MERGE) == false))
+		return false;
+	if((part->Bound.empty() == false) && (Ray_In_Bound(ray, part->Bound, thread) == false))
+		return false;
+	if((operation == ACCEL_UNION) && object.Clip.empty())
+		return part->All_Intersections(ray, depths, thread);
+	if(part->All_Intersections(ray, local, thread) == false)
+		return false;
+	for( ; local->size() > 0; local->pop())
+	{
+		Intersection& isect = local->top();
+
+		if((object.Clip.empty() || Point_In_Clip(isect.IPoint, object.Clip, thread)) && IsSurface(isect.IPoint, place, ray, thread))
+		{
+			isect.Csg = &object;
+			depths->push(isect);
+			found = true;
+		}
+	}
+
+	return found;
+}
+
+bool AccelCsg::AllIntersections(const Ray& ray, IStack& depths, TraceThreadData *thread) const
+{
+	static const IntStatsIndex tests[] = { Ray_CSG_Union_Tests, Ray_CSG_Merge_Tests, Ray_CSG_Intersection_Tests };
+	static const IntStatsIndex successes[] = { Ray_CSG_Union_Tests_Succeeded, Ray_CSG_Merge_Tests_Succeeded, Ray_CSG_Intersection_Tests_Succeeded };
+	AccelPlaces near;
+	IStack local(thread->stackPool);
+	bool found = false;
+
+	FindNear(ray, near, thread);
+	for(AccelPlaces::const_iterator place = near.begin(); place != near.end(); place++)
+		found = AddHits(*place, ray, local, depths, thread) || found;
+	thread->Stats()[tests[operation]]++;
+	if(found)
+		thread->Stats()[successes[operation]]++;
+
+	return found;
+}
+
+bool AccelCsg::Inside(const VECTOR point, TraceThreadData *thread) const
+{
+	const bool settled = (operation != ACCEL_INTERSECTION); // by one part that the point is inside of, or else outside
+	AccelPlaces near;
+
+	FindNear(point, near);
+	for(AccelPlaces::const_iterator i = near.begin(); i != near.end(); i++)
+	{
+		if((Is_Dark_Light(parts[*i]) == false) && (Inside_Object(point, parts[*i], thread) == settled))
+			return settled;
+	}
+
+	return !settled;
+}
+
+
+
+/*****************************************************************************
+ *
+ * Which objects
+ *
+ *****************************************************************************/
+
+static void Take_Object(ObjectPtr object, const AccelReach& reach, std::set<ObjectPtr>& seen, vector<AccelCsg *>& taken);
+
+static void Take_Objects(const vector<ObjectPtr>& objects, const AccelReach& reach, std::set<ObjectPtr>& seen, vector<AccelCsg *>& taken)
+{
+	for(vector<ObjectPtr>::const_iterator i = objects.begin(); i != objects.end(); i++)
+		Take_Object(*i, reach, seen, taken);
+}
+
+static void Take_Object(ObjectPtr object, const AccelReach& reach, std::set<ObjectPtr>& seen, vector<AccelCsg *>& taken)
+{
+	CompoundObject *compound = dynamic_cast<CompoundObject *>(object);
+	CSG *csg = dynamic_cast<CSG *>(object);
+
+	// bounds and clips may be shared
+	if(seen.insert(object).second == false)
+		return;
+	Take_Objects(object->Bound, reach, seen, taken);
+	Take_Objects(object->Clip, reach, seen, taken);
+	if(compound != NULL)
+		Take_Objects(compound->children, reach, seen, taken);
+	if((csg != NULL) && (csg->children.size() >= AccelCsg::FEWEST_PARTS))
+	{
+		const bool common = (dynamic_cast<CSGIntersection *>(csg) != NULL);
+		const bool merged = (dynamic_cast<CSGMerge *>(csg) != NULL);
+
+		csg->accelerated = new AccelCsg(*csg, common ? ACCEL_INTERSECTION : merged ? ACCEL_MERGE : ACCEL_UNION, reach);
+		taken.push_back(csg->accelerated);
+	}
+}
+
+void Accel_Take_Csg(const vector<ObjectPtr>& objects, const AccelReach& reach, vector<AccelCsg *>& taken)
+{
+	std::set<ObjectPtr> seen;
+
+	Take_Objects(objects, reach, seen, taken);
+}
+
+}

@@ -1,0 +1,87 @@
+/*******************************************************************************
+ * povaccelcsg.h
+ *
+ * SPDX-License-Identifier: AGPL-3.0-or-later
+ *
+ * This module contains all defines, typedefs, and prototypes for povaccelcsg.cpp:
+ * the parts of a CSG object in a structure of their own. It is a derivative work of
+ * POV-Ray 3.7.0.10; see LICENSE.
+ *******************************************************************************/
+
+#ifndef POVRAY_BACKEND_POVACCELCSG_H
+#define POVRAY_BACKEND_POVACCELCSG_H
+
+#include <atomic>
+#include <vector>
+
+#include <boost/container/small_vector.hpp>
+#include <boost/thread.hpp>
+
+#include "backend/frame.h"
+#include "backend/accel/accel.h"
+#include "backend/accel/povaccelframe.h"
+#include "backend/scene/objects.h"
+
+namespace pov
+{
+
+/// How CSG puts its parts together. Differences are intersections with inverted parts.
+enum AccelOperation { ACCEL_UNION, ACCEL_MERGE, ACCEL_INTERSECTION };
+
+/// Places among the parts, rising. Memory is asked for only where there are many.
+typedef boost::container::small_vector<uint32_t, 64> AccelPlaces;
+
+/*
+ * Answers as the functions of csg.cpp do, whose loops it runs over the parts that a
+ * ray or point is near, in the same order: a part whose box of hits the ray misses
+ * has no hit, and to be inside (for an intersection: outside) of a part, a point has
+ * to lie in its box of that side. The structure is built when the first ray or point
+ * comes, and shared by all threads after that.
+ */
+class AccelCsg
+{
+	public:
+		/// Fewer parts are tested faster one after the other.
+		static const size_t FEWEST_PARTS = 6;
+
+		/// For rays and points within `reach`.
+		AccelCsg(CompoundObject& object, AccelOperation operation, const AccelReach& reach);
+		~AccelCsg();
+
+		/// Does it answer, or do stock's loops over all parts?
+		bool Answers(const VECTOR where, const TraceThreadData *thread) const;
+
+		bool AllIntersections(const Ray& ray, IStack& depths, TraceThreadData *thread) const;
+		bool Inside(const VECTOR point, TraceThreadData *thread) const;
+
+		bool IsBuilt() const { return built; }
+		size_t PartCount() const { return parts.size(); }
+		size_t Bytes() const;
+	private:
+		CompoundObject& object;
+		const vector<ObjectPtr>& parts;
+		const AccelOperation operation;
+		const AccelReach reach;
+		mutable accel *structure; // over one box for each part, which holds its hits and the side that counts
+		mutable vector<uint32_t> always; // the parts without such a box, rising
+		mutable std::atomic<bool> built;
+		mutable boost::mutex mutex;
+
+		void Prepare() const;
+		void Build() const;
+		void FindNear(const Ray& ray, AccelPlaces& near, TraceThreadData *thread) const;
+		void FindNear(const VECTOR point, AccelPlaces& near) const;
+		bool AddHits(uint32_t place, const Ray& ray, IStack& local, IStack& depths, TraceThreadData *thread) const;
+		bool IsSurface(const VECTOR point, uint32_t place, const Ray& ray, TraceThreadData *thread) const;
+
+		/// not available
+		AccelCsg(const AccelCsg&);
+		AccelCsg& operator=(const AccelCsg&);
+};
+
+/// Gives structures to the CSG objects with enough parts among these objects, their parts, clips and bounds.
+void Accel_Take_Csg(const vector<ObjectPtr>& objects, const AccelReach& reach, vector<AccelCsg *>& taken);
+
+}
+
+#endif // POVRAY_BACKEND_POVACCELCSG_H
