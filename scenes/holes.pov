@@ -12,8 +12,8 @@ difference {
     #for (I, 0, Side - 1)
         #for (K, 0, Side - 1)
             cylinder {
-                <-5 + 10 * (I + 0.5) / Side, -1, -5 + 10 * (K + 0.5) / Side>,
-                <-5 + 10 * (I + 0.5) / Side, 1, -5 + 10 * (K + 0.5) / Side>, 3.6 / Side
+                <-5 + 10 * (I + 0.5) / Side, -0.31, -5 + 10 * (K + 0.5) / Side>,
+                <-5 + 10 * (I + 0.5) / Side, 0.31, -5 + 10 * (K + 0.5) / Side>, 3.6 / Side
             }
         #end
     #end

@@ -270,7 +270,7 @@ void Accelerator::TakeObjects(const SceneData& scene)
 	Find_Reaches(scene, objects, reach);
 	for(int i = 0; i < ACCEL_REACHES; i++)
 		parts[i].reach = reach[i];
-	Accel_Take_Csg(objects, reach[0], csg);
+	Accel_Take_Csg(objects, reach[ACCEL_REACHES - 1], csg);
 }
 
 void Accelerator::Build(const SceneData& scene, Task& task)

@@ -33,12 +33,17 @@ enum AccelContainerSearch
 /// small.
 void Find_Reaches(const SceneData& scene, const vector<ObjectPtr>& objects, AccelReach reach[ACCEL_REACHES]);
 
+/// The largest cube around the same centre as `whole`, and no larger, for which boxes are hardly larger than for rays from the
+/// centre.
+AccelReach Find_Near_Reach(const vector<ObjectPtr>& objects, const AccelReach& whole);
+
 /// A box for each object that holds all hits of rays that begin within `reach`, with infinite sides where none is known,
 /// and the lower side above the upper one if it has no hits.
 vector<accel_box> Find_Boxes(const vector<ObjectPtr>& objects, const AccelReach& reach);
 
-/// A box for each object that holds all points for which Inside_Object answers `inside`, as Find_Boxes gives those of hits.
-vector<accel_box> Find_Side_Boxes(const vector<ObjectPtr>& objects, const AccelReach& reach, bool inside);
+/// A box for each part of a CSG object, an intersection if it is `common`, which holds those of its hits that may be hits of the
+/// object, and the points that it may settle; `always` are the parts without such a box, rising.
+void Find_Part_Boxes(const vector<ObjectPtr>& parts, bool common, const AccelReach& reach, vector<accel_box>& boxes, vector<uint32_t>& always);
 
 /// Is there nothing that a ray can hit or a point can be in? So it is with light sources without looks_like.
 bool Is_Dark_Light(const ObjectBase *object);

@@ -38,86 +38,33 @@ namespace pov
  *
  *****************************************************************************/
 
-AccelCsg::AccelCsg(CompoundObject& o, AccelOperation op, const AccelReach& r) :
-	object(o), parts(o.children), operation(op), reach(r), structure(NULL), built(false)
+AccelCsg::AccelCsg(CompoundObject& o, AccelOperation op, const AccelReach& reach) :
+	object(o), parts(o.children), operation(op), measured(false)
 {
+	levels[FAR].reach = reach;
 }
 
 AccelCsg::~AccelCsg()
 {
-	accel_free(structure);
+	for(int i = 0; i < LEVELS; i++)
+		accel_free(levels[i].structure);
 }
 
 size_t AccelCsg::Bytes() const
 {
-	accel_info info;
+	size_t bytes = 0;
 
-	if(structure == NULL)
-		return 0;
-	accel_describe(structure, &info);
-
-	return info.bytes;
-}
-
-/// Notes a part whose box the ray meets, and reports no hit, so that all others are offered too.
-static void Note_Part(accel_probe *probe)
-{
-	reinterpret_cast<AccelPlaces *>(probe->query->user)->push_back(probe->prim);
-}
-
-void AccelCsg::Build() const
-{
-	vector<accel_box> boxes = Find_Boxes(parts, reach);
-	const vector<accel_box> sides = Find_Side_Boxes(parts, reach, operation != ACCEL_INTERSECTION);
-
-	for(size_t i = 0; i < boxes.size(); i++)
+	for(int i = 0; i < LEVELS; i++)
 	{
-		Include_Box(boxes[i], sides[i]);
-		if(Is_Dark_Light(parts[i]))
-			boxes[i] = Empty_Box();
-		else if(!Is_Finite(boxes[i]) && !Is_Empty(boxes[i]))
-		{
-			always.push_back(i);
-			boxes[i] = Empty_Box();
-		}
+		accel_info info;
+
+		if(levels[i].structure == NULL)
+			continue;
+		accel_describe(levels[i].structure, &info);
+		bytes += info.bytes;
 	}
 
-	accel_geometry geometry = accel_geometry();
-	geometry.type = ACCEL_OBJECTS;
-	geometry.objects.boxes = boxes.data();
-	geometry.objects.count = boxes.size();
-	geometry.objects.order = ACCEL_ORDER_RAW;
-	geometry.objects.intersect = Note_Part;
-
-	const accel_scene scene = { &geometry, 1 };
-	accel_error error;
-
-	if(accel_build(&structure, &scene, "bvh", NULL, &error) != ACCEL_OK)
-	{
-		// no memory, say: then all parts are asked, as ever
-		always.clear();
-		for(size_t i = 0; i < parts.size(); i++)
-			always.push_back(i);
-	}
-}
-
-void AccelCsg::Prepare() const
-{
-	if(built == false)
-	{
-		boost::mutex::scoped_lock lock(mutex);
-
-		if(built == false)
-		{
-			Build();
-			built = true;
-		}
-	}
-}
-
-bool AccelCsg::Answers(const VECTOR where, const TraceThreadData *thread) const
-{
-	return reach.Holds(where) && (thread->accelPlain == false);
+	return bytes;
 }
 
 /// Adds those that are always near, in order.
@@ -129,40 +76,105 @@ static void Add_Rising(AccelPlaces& near, const vector<uint32_t>& always)
 	std::inplace_merge(near.begin(), near.begin() + count, near.end());
 }
 
-static void Name_All(AccelPlaces& near, size_t count)
+/// All that csg.cpp asks.
+template<class Places> static void Name_All(Places& places, const vector<ObjectPtr>& parts)
 {
-	near.clear();
-	for(size_t i = 0; i < count; i++)
-		near.push_back(i);
+	places.clear();
+	for(size_t i = 0; i < parts.size(); i++)
+	{
+		if(Is_Dark_Light(parts[i]) == false)
+			places.push_back(i);
+	}
+}
+
+/// Notes a part whose box the ray meets, and reports no hit, so that all others are offered too.
+static void Note_Part(accel_probe *probe)
+{
+	reinterpret_cast<AccelPlaces *>(probe->query->user)->push_back(probe->prim);
+}
+
+void AccelCsg::Build(Level& level) const
+{
+	vector<accel_box> boxes;
+
+	Find_Part_Boxes(parts, operation == ACCEL_INTERSECTION, level.reach, boxes, level.always);
+
+	accel_geometry geometry = accel_geometry();
+	geometry.type = ACCEL_OBJECTS;
+	geometry.objects.boxes = boxes.data();
+	geometry.objects.count = boxes.size();
+	geometry.objects.order = ACCEL_ORDER_RAW;
+	geometry.objects.intersect = Note_Part;
+
+	const accel_scene scene = { &geometry, 1 };
+	accel_error error;
+
+	if(accel_build(&level.structure, &scene, "bvh", NULL, &error) != ACCEL_OK)
+		Name_All(level.always, parts); // no memory, say: then all parts are asked, as ever
+}
+
+/// The level for rays from there, or a point there; NULL if there is none. Built if need be.
+const AccelCsg::Level *AccelCsg::Choose(const VECTOR where) const
+{
+	if(measured == false)
+	{
+		boost::mutex::scoped_lock lock(mutex);
+
+		if(measured == false)
+			levels[NEAR].reach = Find_Near_Reach(parts, levels[FAR].reach);
+		measured = true;
+	}
+	for(int i = 0; i < LEVELS; i++)
+	{
+		Level& level = levels[i];
+
+		if(level.reach.Holds(where) == false)
+			continue;
+		if(level.built == false)
+		{
+			boost::mutex::scoped_lock lock(mutex);
+
+			if(level.built == false)
+				Build(level);
+			level.built = true;
+		}
+		return &level;
+	}
+
+	return NULL;
+}
+
+bool AccelCsg::Answers(const VECTOR where, const TraceThreadData *thread) const
+{
+	return levels[FAR].reach.Holds(where) && (thread->accelPlain == false);
 }
 
 /// The parts that a ray may hit. Only subsurface rays count hits that are nearer than MIN_ISECT_DEPTH.
 void AccelCsg::FindNear(const Ray& ray, AccelPlaces& near, TraceThreadData *thread) const
 {
+	const Level *level = Choose(ray.Origin);
 	accel_query query = { &near, 0, 0, 0, 0 };
-	accel_ray line;
-	accel_hit hit;
 
-	Prepare();
-	if(structure != NULL)
+	if((level != NULL) && (level->structure != NULL))
 	{
+		accel_ray line;
+		accel_hit hit;
+
 		Assign_Vector(line.org, ray.Origin);
 		Assign_Vector(line.dir, ray.Direction);
 		line.tmin = ray.IsSubsurfaceRay() ? -HUGE_VAL : 0.0;
 		line.tmax = HUGE_VAL;
 		line.skip.geom = line.skip.prim = ACCEL_NONE;
-		accel_closest(structure, &line, &hit, &query);
-		if(query.refused > 0)
-		{
-			Name_All(near, parts.size());
-			return;
-		}
+		accel_closest(level->structure, &line, &hit, &query);
 		std::sort(near.begin(), near.end());
 		near.erase(std::unique(near.begin(), near.end()), near.end());
 	}
+	if((level == NULL) || (query.refused > 0))
+		Name_All(near, parts);
+	else
+		Add_Rising(near, level->always);
 	thread->Stats()[Accel_Csg_Queries]++;
-	thread->Stats()[Accel_Csg_Parts_Passed_Over] += parts.size() - always.size() - near.size();
-	Add_Rising(near, always);
+	thread->Stats()[Accel_Csg_Parts_Passed_Over] += parts.size() - near.size();
 }
 
 /// The library names in the order of the parts.
@@ -175,17 +187,15 @@ static bool Note_Place(void *user, accel_id id)
 /// The parts that a point may be inside of, or outside of in an intersection.
 void AccelCsg::FindNear(const VECTOR point, AccelPlaces& near) const
 {
+	const Level *level = Choose(point);
 	accel_query query = { NULL, 0, 0, 0, 0 };
 
-	Prepare();
-	if((structure != NULL) && reach.Holds(point))
-		accel_point(structure, point, Note_Place, &near, &query);
+	if((level != NULL) && (level->structure != NULL))
+		accel_point(level->structure, point, Note_Place, &near, &query);
+	if((level == NULL) || (query.refused > 0))
+		Name_All(near, parts);
 	else
-		query.refused = 1;
-	if(query.refused > 0)
-		Name_All(near, parts.size());
-	else
-		Add_Rising(near, always);
+		Add_Rising(near, level->always);
 }
 
 
@@ -221,7 +231,7 @@ bool AccelCsg::IsSurface(const VECTOR point, uint32_t place, const Ray& ray, Tra
 	FindNear(point, near);
 	for(AccelPlaces::const_iterator i = near.begin(); i != near.end(); i++)
 	{
-		if((*i == place) || Is_Dark_Light(parts[*i]))
+		if(*i == place)
 			continue;
 		if(operation == ACCEL_INTERSECTION)
 		{
@@ -290,7 +300,7 @@ bool AccelCsg::Inside(const VECTOR point, TraceThreadData *thread) const
 	FindNear(point, near);
 	for(AccelPlaces::const_iterator i = near.begin(); i != near.end(); i++)
 	{
-		if((Is_Dark_Light(parts[*i]) == false) && (Inside_Object(point, parts[*i], thread) == settled))
+		if(Inside_Object(point, parts[*i], thread) == settled)
 			return settled;
 	}
 

@@ -54,21 +54,33 @@ class AccelCsg
 		bool AllIntersections(const Ray& ray, IStack& depths, TraceThreadData *thread) const;
 		bool Inside(const VECTOR point, TraceThreadData *thread) const;
 
-		bool IsBuilt() const { return built; }
+		bool IsBuilt() const { return levels[NEAR].built || levels[FAR].built; }
 		size_t PartCount() const { return parts.size(); }
 		size_t Bytes() const;
 	private:
+		/// Over one box for each part, which holds its hits and the points that it may settle.
+		struct Level
+		{
+			AccelReach reach;
+			accel *structure; // NULL also where there was no memory
+			vector<uint32_t> always; // the parts without such a box, rising
+			std::atomic<bool> built;
+
+			Level() : structure(NULL), built(false) { }
+		};
+
+		/// Boxes for rays from far away may be much larger than small parts.
+		enum { NEAR, FAR, LEVELS };
+
 		CompoundObject& object;
 		const vector<ObjectPtr>& parts;
 		const AccelOperation operation;
-		const AccelReach reach;
-		mutable accel *structure; // over one box for each part, which holds its hits and the side that counts
-		mutable vector<uint32_t> always; // the parts without such a box, rising
-		mutable std::atomic<bool> built;
+		mutable Level levels[LEVELS];
+		mutable std::atomic<bool> measured; // levels[NEAR].reach is known
 		mutable boost::mutex mutex;
 
-		void Prepare() const;
-		void Build() const;
+		void Build(Level& level) const;
+		const Level *Choose(const VECTOR where) const;
 		void FindNear(const Ray& ray, AccelPlaces& near, TraceThreadData *thread) const;
 		void FindNear(const VECTOR point, AccelPlaces& near) const;
 		bool AddHits(uint32_t place, const Ray& ray, IStack& local, IStack& depths, TraceThreadData *thread) const;
