@@ -7,7 +7,7 @@
 #include "mesh/mesh.h"
 #include "mesh/polygon.h"
 #include "mesh/text.h"
-#include "tool/random.h"
+#include "random.h"
 
 #include <float.h>
 #include <locale.h>

@@ -40,7 +40,7 @@ static const struct topic {
      "(NVIDIA/warp#1530)"},
     {"closed", "closed meshes and fans",
      "leaks at a vertex in robust mode, agreed (embree#174, #181)"},
-    {"stadium", "a teapot in a stadium", "a uniform grid puts it all into one cell"},
+    {"speck", "a speck in a large scene", "a uniform grid puts it all into one cell"},
     {"huge-and-tiny", "huge and tiny, unbounded",
      "POV-Ray: beyond 1e7 nothing is hit, above 2e10 nothing is bounded (configcore.h:153)"},
     {"ties", "ties",

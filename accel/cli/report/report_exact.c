@@ -30,8 +30,8 @@ typedef struct subject {
 } subject;
 
 static const subject subjects[] = {
-    {"soup", 0, "random-rays", "1,000 triangles, random rays", true},
-    {"soup", 0, "soup", "the same, rays at vertices and edges too", false},
+    {"shards", 0, "random-rays", "1,000 triangles, random rays", true},
+    {"shards", 0, "shards", "the same, rays at vertices and edges too", false},
     {"shift-1e3", 0, "shift-1e3", "10³ off the origin", false},
     {"shift-1e6", 0, "shift-1e6", "10⁶ off the origin", false},
     {"shift-1e9", 0, "shift-1e9", NULL, false},
@@ -90,7 +90,7 @@ static void judge_all(examined *x)
 }
 
 /* Rays that aim at nothing in particular: of the mix every sixth. */
-static accel_ray random_ray(const struct test_scene *s, const accel *judge, struct rng *d,
+static accel_ray random_ray(const struct ray_target *s, const accel *judge, struct rng *d,
                             uint64_t i)
 {
     (void)i;

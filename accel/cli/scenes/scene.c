@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The list of built-in scenes and the parser of their options. A word before ':' that names a
+ * SCENE: a name of the catalogue with its options, or a file. A word before ':' that names a
  * built-in scene wins over a file of that name: write ./teapots for the file.
  */
-#include "scene_build.h"
+#include "scene.h"
 
+#include "catalogue.h"
+#include "generator.h"
 #include "core/error.h"
 #include "core/words.h"
 #include "tool/file.h"
@@ -16,32 +18,41 @@
 
 enum { MOST_OPTIONS = 8 };
 
-static const struct generator *const generators[] = {
-    &generator_cubes,  &generator_teapots, &generator_stadium, &generator_soup,  &generator_spheres,
-    &generator_nested, &generator_same,    &generator_one,     &generator_empty,
+static const accel_option case_options[] = {
+    {.key = "seed",
+     .meaning = "another number, another scene, where it is random",
+     .min = 0.0,
+     .max = 0x1p53,
+     .standard = 1.0,
+     .whole = true},
 };
 
-enum { GENERATORS = sizeof generators / sizeof generators[0] };
+/* What a SCENE means: a generator, a case, or a file where both are NULL. */
+typedef struct meaning {
+    const struct generator *generator;
+    const struct scene_maker *maker;
+    accel_kind_info info;        /* of either */
+    double values[MOST_OPTIONS]; /* of its options */
+} meaning;
 
-const accel_kind_info *const *scene_kinds(size_t *count)
+/* False: no built-in scene has this name. */
+static bool find_name(meaning *m, struct word name)
 {
-    static const accel_kind_info *const kinds[GENERATORS] = {
-        &generator_cubes.info, &generator_teapots.info, &generator_stadium.info,
-        &generator_soup.info,  &generator_spheres.info, &generator_nested.info,
-        &generator_same.info,  &generator_one.info,     &generator_empty.info,
-    };
-    *count = GENERATORS;
-    return kinds;
-}
-
-static const struct generator *find_generator(struct word name)
-{
-    for (size_t i = 0; i < GENERATORS; i++) {
+    *m = (meaning){0};
+    for (size_t i = 0; generators[i] != NULL; i++) {
         if (accel_word_is(name, generators[i]->info.name)) {
-            return generators[i];
+            m->generator = generators[i];
+            m->info = generators[i]->info;
         }
     }
-    return NULL;
+    for (const struct scene_maker *maker = scene_makers; maker->name != NULL; maker++) {
+        if (accel_word_is(name, maker->name)) {
+            m->maker = maker;
+            m->info =
+                (accel_kind_info){.name = maker->name, .options = case_options, .option_count = 1};
+        }
+    }
+    return m->info.name != NULL;
 }
 
 static void complain_of_setting(const accel_kind_info *info, enum setting_fault fault,
@@ -122,8 +133,11 @@ static bool looks_built_in(const char *text, struct word name)
 static void say_unknown(struct word name, accel_error *error)
 {
     struct nearest likely = {.found = name};
-    for (size_t i = 0; i < GENERATORS; i++) {
+    for (size_t i = 0; generators[i] != NULL; i++) {
         accel_nearest_offer(&likely, generators[i]->info.name);
+    }
+    for (const struct scene_maker *maker = scene_makers; maker->name != NULL; maker++) {
+        accel_nearest_offer(&likely, maker->name);
     }
     snprintf(error->text, sizeof error->text,
              "scene '%.*s' is neither a file nor a built-in scene; %s%s; nothing was loaded",
@@ -132,20 +146,13 @@ static void say_unknown(struct word name, accel_error *error)
              likely.word == NULL ? "" : likely.word);
 }
 
-/* What a SCENE means. */
-typedef struct meaning {
-    const struct generator *generator; /* NULL: a file */
-    double values[MOST_OPTIONS];       /* of its options */
-} meaning;
-
 static bool understand(meaning *m, const char *name, accel_error *error)
 {
     *error = (accel_error){.status = ACCEL_BAD_ARGUMENT};
     const char *at = name;
     const struct word word = accel_settings_name(&at);
-    m->generator = find_generator(word);
-    if (m->generator != NULL) {
-        return read_options(&m->generator->info, at, m->values, error);
+    if (find_name(m, word)) {
+        return read_options(&m->info, at, m->values, error);
     }
     if (looks_built_in(name, word)) {
         say_unknown(word, error);
@@ -157,7 +164,7 @@ static bool understand(meaning *m, const char *name, accel_error *error)
 bool scene_understood(const char *name, accel_error *error)
 {
     meaning m;
-    return understand(&m, name, error) && (m.generator != NULL || file_there(name, error));
+    return understand(&m, name, error) && (m.info.name != NULL || file_there(name, error));
 }
 
 bool load_scene(struct loaded *out, const char *name, load_progress *progress, void *user,
@@ -168,15 +175,19 @@ bool load_scene(struct loaded *out, const char *name, load_progress *progress, v
     if (!understand(&m, name, error)) {
         return false;
     }
-    if (m.generator == NULL) {
+    if (m.info.name == NULL) {
         return load_file(out, name, progress, user, error);
+    }
+    if (m.maker != NULL) {
+        case_load(out, m.maker, (uint64_t)m.values[0]);
+        return true;
     }
     if (m.generator->generate(out, m.values)) {
         return true;
     }
     unload_scene(out);
     snprintf(error->text, sizeof error->text, "scene %s: out of memory; nothing was made",
-             m.generator->info.name);
+             m.info.name);
     error->status = ACCEL_NO_MEMORY;
     return false;
 }

@@ -7,7 +7,7 @@
  * without area at the poles are left out. y is up, as in POV-Ray: (x, y, z) of the patches becomes
  * (x, z, -y). One geometry for each object: teapots first, then what they stand in.
  */
-#include "scene_build.h"
+#include "generator.h"
 #include "teapot_patches.h"
 
 #include <stdlib.h>

@@ -6,7 +6,7 @@
 #define ACCEL_CLI_SCATTER_H
 
 #include "photons/photons_vector.h"
-#include "tool/random.h"
+#include "random.h"
 
 static inline void scatter(const double normal[3], struct random *random, double out[3])
 {

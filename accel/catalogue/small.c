@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Scenes at the limits: nothing, one triangle, many at one place, spheres within spheres.
+ * Scenes at the limits: one triangle, many at one place, spheres within spheres.
  */
-#include "scene_build.h"
+#include "generator.h"
 
 static const accel_option same_options[] = {
     {.key = "n",
@@ -46,12 +46,6 @@ static bool generate_one(struct loaded *out, const double *values)
     return add_same(out, 1);
 }
 
-static bool generate_empty(struct loaded *out, const double *values)
-{
-    (void)values;
-    return add_same(out, 0);
-}
-
 /* All touch the origin from the same side, so that their centres differ as well. */
 static bool generate_nested(struct loaded *out, const double *values)
 {
@@ -83,9 +77,4 @@ const struct generator generator_nested = {
 const struct generator generator_one = {
     .info = {.name = "one", .summary = "one triangle"},
     .generate = generate_one,
-};
-
-const struct generator generator_empty = {
-    .info = {.name = "empty", .summary = "no primitive at all"},
-    .generate = generate_empty,
 };

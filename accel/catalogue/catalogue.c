@@ -30,9 +30,9 @@
     }
 
 const struct scene_maker scene_makers[] = {
-    {"random", "soup", "1,000 triangles, edges 1e-3..1", make_soup, 1000, 5000, 0},
-    {"random", "soup-20k", "20,000 triangles, edges 1e-3..1", make_soup, 20000, 5000, 0},
-    {"random", "soup-100k", "100,000 triangles, edges 1e-3..1", make_soup, 100000, 5000, 0},
+    {"random", "shards", "1,000 triangles, edges 1e-3..1", make_shards, 1000, 5000, 0},
+    {"random", "shards-20k", "20,000 triangles, edges 1e-3..1", make_shards, 20000, 5000, 0},
+    {"random", "shards-100k", "100,000 triangles, edges 1e-3..1", make_shards, 100000, 5000, 0},
     {"sizes", "sizes", "1,000 triangles, edges 1e-12..1", make_log_sizes, 1000, 5000, 0},
     SCALED("scale-1e-310", 1e-310),
     SCALED("scale-1e-300", 1e-300),
@@ -95,7 +95,7 @@ const struct scene_maker scene_makers[] = {
     SPLIT("split-65536", 65536),
     {"closed", "terrain", "a height field, 32 x 32", make_terrain, 32, 10000, 0},
     {"closed", "fan", "closed double fans of 3..64", make_fan, 0, 200, 62},
-    {"stadium", "stadium", "100,000 triangles in 1e-3 of a scene of 1e3", make_stadium, 6, 2000, 0},
+    {"speck", "speck", "100,000 triangles in 1e-3 of a scene of 1e3", make_speck, 6, 2000, 0},
     {"huge-and-tiny", "huge-and-tiny", "spheres of 1e7 and 1e-6, boxes, infinite planes",
      make_huge_and_tiny, 0, 2000, 0},
     {"ties", "stack", "coplanar squares, 0 or 1 ulp apart", make_stack, 8, 5000, 0},
@@ -130,6 +130,18 @@ void scene_make(struct test_scene *s, const struct scene_maker *maker, uint64_t 
     scene_open(s);
     maker->make(s, &d, maker->param);
     scene_close(s);
+}
+
+void case_load(struct loaded *out, const struct scene_maker *maker, uint64_t seed)
+{
+    *out = (struct loaded){0};
+    struct test_scene *s = must_resize(NULL, sizeof *s);
+    scene_make(s, maker, seed);
+    out->geometries = must_resize(NULL, s->count * sizeof *out->geometries);
+    memcpy(out->geometries, s->geometry, s->count * sizeof *out->geometries);
+    out->scene = (accel_scene){out->geometries, s->count};
+    free(s->target.given);
+    free(s);
 }
 
 double test_intensity(void)

@@ -19,8 +19,9 @@ static void in_ball(struct rng *d, const struct test_scene *s, const double at[3
 {
     (void)at;
     for (int k = 0; k < 3; k++) {
-        const double middle = s->box.lo[k] + 0.5 * (s->box.hi[k] - s->box.lo[k]);
-        org[k] = middle + 0.5 * (s->box.hi[k] - middle) * rng_range(d, -1, 1);
+        const double middle =
+            s->target.box.lo[k] + 0.5 * (s->target.box.hi[k] - s->target.box.lo[k]);
+        org[k] = middle + 0.5 * (s->target.box.hi[k] - middle) * rng_range(d, -1, 1);
     }
 }
 

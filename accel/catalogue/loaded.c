@@ -2,9 +2,9 @@
  *
  * Growing arrays that end as geometries, and what can be asked of any scene.
  */
-#include "scene_build.h"
+#include "loaded.h"
 
-#include "tool/memory.h"
+#include "core/memory.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -16,11 +16,8 @@ static void *make_room(void *block, size_t count, size_t more, size_t size, size
         return block;
     }
     const size_t wanted = (count + more) * 2;
-    void *grown = realloc(block, wanted * size);
-    if (grown != NULL) {
-        *capacity = wanted;
-        memory_large_pages(grown, wanted * size);
-    }
+    void *grown = accel_memory_system(NULL, block, *capacity * size, wanted * size);
+    *capacity = grown != NULL ? wanted : *capacity;
     return grown;
 }
 
@@ -110,22 +107,29 @@ void unload_scene(struct loaded *loaded)
         if (geometry->type == ACCEL_TRIANGLES) {
             free((void *)geometry->triangles.vertices);
             free((void *)geometry->triangles.indices);
-        } else {
+        } else if (geometry->type == ACCEL_SPHERES) {
             free((void *)geometry->spheres.spheres);
+        } else {
+            free((void *)geometry->objects.boxes);
+            free(geometry->objects.user);
         }
     }
     free(loaded->geometries);
     *loaded = (struct loaded){0};
 }
 
+uint32_t geometry_primitives(const accel_geometry *geometry)
+{
+    return geometry->type == ACCEL_TRIANGLES ? geometry->triangles.count
+           : geometry->type == ACCEL_SPHERES ? geometry->spheres.count
+                                             : geometry->objects.count;
+}
+
 uint64_t scene_primitives(const accel_scene *scene)
 {
     uint64_t total = 0;
     for (uint32_t g = 0; g < scene->count; g++) {
-        const accel_geometry *geometry = &scene->geometries[g];
-        total += geometry->type == ACCEL_TRIANGLES ? geometry->triangles.count
-                 : geometry->type == ACCEL_SPHERES ? geometry->spheres.count
-                                                   : geometry->objects.count;
+        total += geometry_primitives(&scene->geometries[g]);
     }
     return total;
 }
@@ -153,47 +157,51 @@ const double *scene_sphere(const accel_spheres *spheres, uint32_t prim)
     return (const double *)(const void *)((const char *)spheres->spheres + prim * stride);
 }
 
+/* Each coordinate for itself. */
 static void box_add(accel_box *box, const double point[3], double radius)
 {
     for (int k = 0; k < 3; k++) {
-        if (!isfinite(point[k]) || !isfinite(radius)) {
-            return;
+        if (fabs(point[k]) <= ACCEL_MAX_COORDINATE && radius <= ACCEL_MAX_COORDINATE) {
+            box->lo[k] = fmin(box->lo[k], point[k] - radius);
+            box->hi[k] = fmax(box->hi[k], point[k] + radius);
         }
-    }
-    for (int k = 0; k < 3; k++) {
-        box->lo[k] = fmin(box->lo[k], point[k] - radius);
-        box->hi[k] = fmax(box->hi[k], point[k] + radius);
     }
 }
 
-static void box_add_geometry(accel_box *box, const accel_geometry *geometry)
+static void box_add_primitive(accel_box *box, const accel_geometry *geometry, uint32_t i)
 {
     if (geometry->type == ACCEL_TRIANGLES) {
-        for (uint32_t i = 0; i < geometry->triangles.count; i++) {
-            for (int corner = 0; corner < 3; corner++) {
-                double vertex[3];
-                scene_vertex(&geometry->triangles, i, corner, vertex);
-                box_add(box, vertex, 0.0);
-            }
+        for (int corner = 0; corner < 3; corner++) {
+            double vertex[3];
+            scene_vertex(&geometry->triangles, i, corner, vertex);
+            box_add(box, vertex, 0.0);
         }
     } else if (geometry->type == ACCEL_SPHERES) {
-        for (uint32_t i = 0; i < geometry->spheres.count; i++) {
-            const double *sphere = scene_sphere(&geometry->spheres, i);
-            box_add(box, sphere, sphere[3]);
-        }
+        const double *sphere = scene_sphere(&geometry->spheres, i);
+        box_add(box, sphere, fabs(sphere[3]));
+    } else {
+        box_add(box, geometry->objects.boxes[i].lo, 0.0);
+        box_add(box, geometry->objects.boxes[i].hi, 0.0);
     }
 }
 
 bool scene_box(const accel_scene *scene, accel_box *box)
 {
-    *box = (accel_box){{(double)INFINITY, (double)INFINITY, (double)INFINITY},
-                       {-(double)INFINITY, -(double)INFINITY, -(double)INFINITY}};
+    const double inf = (double)INFINITY;
+    *box = (accel_box){{inf, inf, inf}, {-inf, -inf, -inf}};
     for (uint32_t g = 0; g < scene->count; g++) {
-        box_add_geometry(box, &scene->geometries[g]);
+        const uint32_t count = geometry_primitives(&scene->geometries[g]);
+        for (uint32_t i = 0; i < count; i++) {
+            box_add_primitive(box, &scene->geometries[g], i);
+        }
     }
-    if (box->lo[0] <= box->hi[0]) {
-        return true;
+    bool whole = true;
+    for (int k = 0; k < 3; k++) {
+        if (!(box->lo[k] <= box->hi[k])) {
+            box->lo[k] = 0.0;
+            box->hi[k] = 1.0;
+            whole = false;
+        }
     }
-    *box = (accel_box){{0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}};
-    return false;
+    return whole;
 }

@@ -1,8 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Families of rays: see catalogue.h.
+ * A sphere lends six vertices, the ends of its axes; where an edge of it is asked for it is any
+ * point of its surface. A box lends its corners and edges.
  */
-#include "catalogue.h"
+#include "rays.h"
+
+#include "camera.h"
+#include "loaded.h"
 
 #include <float.h>
 #include <string.h>
@@ -50,38 +54,57 @@ static void on_box(const accel_box *b, struct rng *d, enum spot spot, double out
     }
 }
 
-/* A random primitive. NULL if the scene has none. */
-static const struct part *pick(const struct test_scene *s, struct rng *d, uint32_t *index)
+/* A random primitive. False if the scene has none. */
+static bool pick(const struct ray_target *s, struct rng *d, accel_id *out)
 {
-    const uint64_t size = scene_size(s);
-    if (size == 0)
-        return NULL;
-    uint32_t at = rng_below(d, (uint32_t)size);
-    const struct part *p = s->part;
-    while (at >= p->count)
-        at -= p++->count;
-    *index = at;
-    return p;
+    if (s->primitives == 0)
+        return false;
+    uint32_t at = rng_below(d, (uint32_t)s->primitives), g = 0, count;
+    while (at >= (count = geometry_primitives(&s->scene->geometries[g]))) {
+        at -= count;
+        g++;
+    }
+    *out = (accel_id){g, at};
+    return true;
 }
 
-static void target(const struct test_scene *s, struct rng *d, enum spot spot, double out[3])
+static void corners_of(const struct ray_target *s, accel_id id, double out[9])
 {
-    uint32_t i;
-    const struct part *p = pick(s, d, &i);
-    if (!p)
-        on_box(&s->box, d, INSIDE, out);
-    else if (p->type == ACCEL_TRIANGLES)
-        on_triangle(p->data + 9 * (size_t)i, d, spot, out);
-    else if (p->type == ACCEL_SPHERES)
-        on_sphere(p->data + 4 * (size_t)i, d, spot, out);
-    else
-        on_box(&p->boxes[i], d, spot, out);
+    for (int corner = 0; corner < 3; corner++)
+        scene_vertex(&s->scene->geometries[id.geom].triangles, id.prim, corner, out + 3 * corner);
+}
+
+static void on_primitive(const struct ray_target *s, accel_id id, struct rng *d, enum spot spot,
+                         double out[3])
+{
+    const accel_geometry *g = &s->scene->geometries[id.geom];
+    double corners[9];
+    if (g->type == ACCEL_TRIANGLES) {
+        corners_of(s, id, corners);
+        on_triangle(corners, d, spot, out);
+    } else if (g->type == ACCEL_SPHERES) {
+        on_sphere(scene_sphere(&g->spheres, id.prim), d, spot, out);
+    } else {
+        on_box(&g->objects.boxes[id.prim], d, spot, out);
+    }
+    for (int k = 0; k < 3; k++)
+        out[k] = finite_or(out[k], s->box.lo[k]);
+}
+
+static void target(const struct ray_target *s, struct rng *d, enum spot spot, double out[3])
+{
+    accel_id id;
+    if (pick(s, d, &id)) {
+        on_primitive(s, id, d, spot, out);
+        return;
+    }
+    on_box(&s->box, d, INSIDE, out);
     for (int k = 0; k < 3; k++)
         out[k] = finite_or(out[k], s->box.lo[k]);
 }
 
 /* A point in the scene's box, or up to one and a half extents outside. */
-static void anywhere(const struct test_scene *s, struct rng *d, double out[3])
+static void anywhere(const struct ray_target *s, struct rng *d, double out[3])
 {
     const bool inside = rng_chance(d, 0.3);
     for (int k = 0; k < 3; k++) {
@@ -98,7 +121,7 @@ static accel_ray towards(const double org[3], const double to[3])
     return accel_ray_from(org, dir);
 }
 
-static accel_ray aimed(const struct test_scene *s, struct rng *d, enum spot spot)
+static accel_ray aimed(const struct ray_target *s, struct rng *d, enum spot spot)
 {
     double org[3], to[3];
     anywhere(s, d, org);
@@ -112,7 +135,7 @@ static accel_ray aimed(const struct test_scene *s, struct rng *d, enum spot spot
     return ray;
 }
 
-static accel_ray random_ray(const struct test_scene *s, struct rng *d)
+static accel_ray random_ray(const struct ray_target *s, struct rng *d)
 {
     double org[3], to[3];
     anywhere(s, d, org);
@@ -125,7 +148,7 @@ static double either_zero(struct rng *d)
     return rng_chance(d, 0.5) ? 0.0 : -0.0;
 }
 
-static accel_ray parallel_ray(const struct test_scene *s, struct rng *d)
+static accel_ray parallel_ray(const struct ray_target *s, struct rng *d)
 {
     double org[3], dir[3];
     target(s, d, VERTEX, org);
@@ -141,15 +164,15 @@ static accel_ray parallel_ray(const struct test_scene *s, struct rng *d)
 }
 
 /* From far along a line that leaves a triangle's plane by 1e-2..1e-15. */
-static accel_ray grazing_ray(const struct test_scene *s, struct rng *d)
+static accel_ray grazing_ray(const struct ray_target *s, struct rng *d)
 {
-    double a[3], b[3], org[3];
-    uint32_t i;
-    const struct part *p = pick(s, d, &i);
-    if (!p || p->type != ACCEL_TRIANGLES)
+    double a[3], b[3], org[3], corners[9];
+    accel_id id;
+    if (!pick(s, d, &id) || s->scene->geometries[id.geom].type != ACCEL_TRIANGLES)
         return aimed(s, d, EDGE);
-    on_triangle(p->data + 9 * (size_t)i, d, INSIDE, a);
-    on_triangle(p->data + 9 * (size_t)i, d, EDGE, b);
+    corners_of(s, id, corners);
+    on_triangle(corners, d, INSIDE, a);
+    on_triangle(corners, d, EDGE, b);
     const double off = rng_power(d, -50, -6), back = rng_range(d, 0.1, 20);
     double size = 0.0;
     for (int k = 0; k < 3; k++)
@@ -159,7 +182,7 @@ static accel_ray grazing_ray(const struct test_scene *s, struct rng *d)
     return towards(org, a);
 }
 
-static accel_ray mix_ray(const struct test_scene *s, const accel *judge, struct rng *d, uint64_t i)
+static accel_ray mix_ray(const struct ray_target *s, const accel *judge, struct rng *d, uint64_t i)
 {
     (void)judge;
     switch (i % 6) {
@@ -190,7 +213,7 @@ static double special(uint32_t i)
 }
 
 /* Every direction of special components, one after the other; the rest is sampled. */
-static accel_ray special_ray(const struct test_scene *s, const accel *judge, struct rng *d,
+static accel_ray special_ray(const struct ray_target *s, const accel *judge, struct rng *d,
                              uint64_t i)
 {
     (void)judge;
@@ -214,7 +237,7 @@ static accel_ray special_ray(const struct test_scene *s, const accel *judge, str
 }
 
 /* From a vertex, an edge, a face or a box's corner, along an axis, an edge or anywhere. */
-static accel_ray origin_on(const struct test_scene *s, const accel *judge, struct rng *d,
+static accel_ray origin_on(const struct ray_target *s, const accel *judge, struct rng *d,
                            uint64_t i)
 {
     (void)judge;
@@ -231,7 +254,7 @@ static accel_ray origin_on(const struct test_scene *s, const accel *judge, struc
 }
 
 /* Through points and half points of the integer lattice, in the 26 directions, both zeros. */
-static accel_ray lattice_ray(const struct test_scene *s, const accel *judge, struct rng *d,
+static accel_ray lattice_ray(const struct ray_target *s, const accel *judge, struct rng *d,
                              uint64_t i)
 {
     (void)judge;
@@ -249,7 +272,7 @@ static accel_ray lattice_ray(const struct test_scene *s, const accel *judge, str
 }
 
 /* Ends its interval at the first hit's t, or one step before or behind. */
-static accel_ray ending_ray(const struct test_scene *s, const accel *judge, struct rng *d,
+static accel_ray ending_ray(const struct ray_target *s, const accel *judge, struct rng *d,
                             uint64_t i)
 {
     const double inf = (double)INFINITY;
@@ -263,7 +286,7 @@ static accel_ray ending_ray(const struct test_scene *s, const accel *judge, stru
     return ray;
 }
 
-static accel_ray unnormalised_ray(const struct test_scene *s, const accel *judge, struct rng *d,
+static accel_ray unnormalised_ray(const struct ray_target *s, const accel *judge, struct rng *d,
                                   uint64_t i)
 {
     accel_ray ray = mix_ray(s, judge, d, i);
@@ -274,7 +297,7 @@ static accel_ray unnormalised_ray(const struct test_scene *s, const accel *judge
 }
 
 /* Leaves the primitive that it was reflected or refracted at. */
-static accel_ray secondary_ray(const struct test_scene *s, const accel *judge, struct rng *d,
+static accel_ray secondary_ray(const struct ray_target *s, const accel *judge, struct rng *d,
                                uint64_t i)
 {
     struct rng base = rng_from(d->seed, i / 1000);
@@ -293,7 +316,7 @@ static accel_ray secondary_ray(const struct test_scene *s, const accel *judge, s
 }
 
 /* From 1e3 to 1e14 extents away. */
-static accel_ray far_ray(const struct test_scene *s, const accel *judge, struct rng *d, uint64_t i)
+static accel_ray far_ray(const struct ray_target *s, const accel *judge, struct rng *d, uint64_t i)
 {
     (void)judge;
     double org[3], to[3];
@@ -305,7 +328,7 @@ static accel_ray far_ray(const struct test_scene *s, const accel *judge, struct 
 }
 
 /* Those that come with the scene, one after the other. */
-static accel_ray given_ray(const struct test_scene *s, const accel *judge, struct rng *d,
+static accel_ray given_ray(const struct ray_target *s, const accel *judge, struct rng *d,
                            uint64_t i)
 {
     return s->given_count ? s->given[i % s->given_count] : mix_ray(s, judge, d, i);
@@ -314,8 +337,8 @@ static accel_ray given_ray(const struct test_scene *s, const accel *judge, struc
 static const char *const for_special[] = {"scale-1", "mixed", "lattice", "huge-and-tiny", NULL};
 static const char *const for_origins[] = {"lattice", "ball-mesh", "stack", "mixed", NULL};
 static const char *const for_lattice[] = {"lattice", "stack", NULL};
-static const char *const for_ends[] = {"soup", "mixed", "twins", "lattice", "exotic", NULL};
-static const char *const for_lengths[] = {"soup", "mixed", "sizes", NULL};
+static const char *const for_ends[] = {"shards", "mixed", "twins", "lattice", "exotic", NULL};
+static const char *const for_lengths[] = {"shards", "mixed", "sizes", NULL};
 static const char *const for_secondary[] = {"ball-mesh", "mixed", "slivers", NULL};
 static const char *const for_exotic[] = {"exotic", "mixed", "huge-and-tiny", NULL};
 static const char *const for_far[] = {"scale-1", "shift-1e6", "mixed-key", NULL};
@@ -350,4 +373,202 @@ const struct ray_family *ray_family_find(const char *name)
         if (strcmp(f->name, name) == 0)
             return f;
     return NULL;
+}
+
+/* ------------------------------------------------------- the families of check ---- */
+
+/* Uniform on the unit sphere (Marsaglia 1972: the height is uniform). */
+static void unit_vector(struct rng *d, double out[3])
+{
+    const double z = rng_range(d, -1.0, 1.0), ring = sqrt(1.0 - z * z);
+    const double angle = rng_range(d, 0.0, 6.283185307179586);
+    out[0] = ring * cos(angle);
+    out[1] = ring * sin(angle);
+    out[2] = z;
+}
+
+static accel_ray primary_ray(const struct ray_target *s, const accel *judge, struct rng *d,
+                             uint64_t i)
+{
+    (void)judge, (void)i;
+    struct camera camera;
+    double eye[3], at[3];
+    camera_frame(&s->box, eye, at);
+    camera_make(&camera, eye, at, 40.0, 1024, 768);
+    const double column = rng_range(d, -0.5, 1023.5);
+    return camera_ray(&camera, column, rng_range(d, -0.5, 767.5));
+}
+
+static accel_ray line_ray(const struct ray_target *s, const accel *judge, struct rng *d, uint64_t i)
+{
+    (void)judge, (void)i;
+    return random_ray(s, d);
+}
+
+static accel_ray inside_ray(const struct ray_target *s, const accel *judge, struct rng *d,
+                            uint64_t i)
+{
+    (void)judge, (void)i;
+    double org[3], dir[3];
+    on_box(&s->box, d, INSIDE, org);
+    unit_vector(d, dir);
+    return accel_ray_from(org, dir);
+}
+
+static accel_ray bounce_ray(const struct ray_target *s, const accel *judge, struct rng *d,
+                            uint64_t i)
+{
+    accel_id id;
+    double org[3], dir[3];
+    if (!pick(s, d, &id))
+        return inside_ray(s, judge, d, i);
+    on_primitive(s, id, d, INSIDE, org);
+    unit_vector(d, dir);
+    accel_ray ray = accel_ray_from(org, dir);
+    ray.skip = id;
+    return ray;
+}
+
+/* Aimed at such a spot, one in three from a vertex. */
+static accel_ray spot_ray(const struct ray_target *s, struct rng *d, enum spot spot)
+{
+    double org[3], to[3];
+    if (!rng_chance(d, 1.0 / 3.0))
+        return aimed(s, d, spot);
+    target(s, d, VERTEX, org);
+    target(s, d, spot, to);
+    return towards(org, to);
+}
+
+static accel_ray vertex_ray(const struct ray_target *s, const accel *judge, struct rng *d,
+                            uint64_t i)
+{
+    (void)judge, (void)i;
+    return spot_ray(s, d, VERTEX);
+}
+
+static accel_ray edge_ray(const struct ray_target *s, const accel *judge, struct rng *d, uint64_t i)
+{
+    (void)judge, (void)i;
+    return spot_ray(s, d, EDGE);
+}
+
+/* Parallel to an axis, one in four to a diagonal; one origin's coordinate in eight on a plane that
+ * halving the box makes. */
+static accel_ray axis_ray(const struct ray_target *s, const accel *judge, struct rng *d, uint64_t i)
+{
+    (void)judge, (void)i;
+    accel_ray ray = parallel_ray(s, d);
+    const uint32_t other = rng_below(d, 3);
+    if (rng_chance(d, 0.25) && ray.dir[other] == 0.0)
+        ray.dir[other] = copysign(1.0, ray.dir[other]);
+    for (int k = 0; k < 3; k++) {
+        const uint32_t parts = 1u << rng_below(d, 8);
+        const double part = (double)rng_below(d, parts + 1) / parts;
+        if (ray.dir[k] == 0.0 && rng_chance(d, 0.125))
+            ray.org[k] = s->box.lo[k] + part * (s->box.hi[k] - s->box.lo[k]);
+    }
+    return ray;
+}
+
+/* Along a tangent of a sphere, nearly. */
+static accel_ray tangent_ray(const struct ray_target *s, struct rng *d, const double *sphere)
+{
+    double normal[3], other[3], along[3], org[3], dir[3], length = 0.0;
+    unit_vector(d, normal);
+    unit_vector(d, other);
+    for (int k = 0; k < 3; k++) {
+        const int i = (k + 1) % 3, j = (k + 2) % 3;
+        along[k] = normal[i] * other[j] - normal[j] * other[i];
+        length += along[k] * along[k];
+    }
+    const double lift = rng_power(d, -50, -6) * (rng_chance(d, 0.5) ? 1.0 : -1.0);
+    const double size = rng_chance(d, 0.5) ? sphere[3] : s->box.hi[0] - s->box.lo[0];
+    const double back = size * rng_range(d, 0.0, 2.0);
+    for (int k = 0; k < 3; k++) {
+        dir[k] = along[k] / sqrt(length) + lift * normal[k];
+        org[k] = sphere[k] + sphere[3] * normal[k] - back * dir[k];
+    }
+    return accel_ray_from(org, dir);
+}
+
+static accel_ray near_plane_ray(const struct ray_target *s, const accel *judge, struct rng *d,
+                                uint64_t i)
+{
+    (void)judge, (void)i;
+    struct rng copy = *d;
+    accel_id id;
+    if (!pick(s, &copy, &id) || s->scene->geometries[id.geom].type != ACCEL_SPHERES)
+        return grazing_ray(s, d);
+    *d = copy;
+    return tangent_ray(s, d, scene_sphere(&s->scene->geometries[id.geom].spheres, id.prim));
+}
+
+static accel_ray scaled_ray(const struct ray_target *s, const accel *judge, struct rng *d,
+                            uint64_t i)
+{
+    (void)judge, (void)i;
+    accel_ray ray = rng_chance(d, 0.5) ? random_ray(s, d) : aimed(s, d, EDGE);
+    const int power = (int)rng_below(d, 1001) - 500;
+    for (int k = 0; k < 3; k++)
+        ray.dir[k] = ldexp(ray.dir[k], power);
+    return ray;
+}
+
+/* The hit is at t = 1, up to rounding. */
+static double interval_end(struct rng *d)
+{
+    static const double ends[] = {0.0, 0.5,  1.0,   1.0 - 0x1p-53, 1.0 + 0x1p-52,
+                                  2.0, -1.0, 1e300, -INFINITY,     INFINITY};
+    return ends[rng_below(d, sizeof ends / sizeof *ends)];
+}
+
+static accel_ray interval_ray(const struct ray_target *s, const accel *judge, struct rng *d,
+                              uint64_t i)
+{
+    (void)judge, (void)i;
+    double org[3], to[3];
+    if (rng_chance(d, 1.0 / 3.0))
+        target(s, d, VERTEX, org);
+    else
+        anywhere(s, d, org);
+    target(s, d, INSIDE, to);
+    accel_ray ray = towards(org, to);
+    ray.tmin = interval_end(d);
+    ray.tmax = interval_end(d);
+    return ray;
+}
+
+static const struct ray_family check_families[FAMILIES] = {
+    [RAYS_PRIMARY] = {.name = "primary", .make = primary_ray},
+    [RAYS_LINES] = {.name = "lines", .make = line_ray},
+    [RAYS_INSIDE] = {.name = "inside", .make = inside_ray},
+    [RAYS_BOUNCE] = {.name = "bounce", .make = bounce_ray},
+    [RAYS_VERTEX] = {.name = "vertex", .make = vertex_ray},
+    [RAYS_EDGE] = {.name = "edge", .make = edge_ray},
+    [RAYS_AXIS] = {.name = "axis", .make = axis_ray},
+    [RAYS_GRAZING] = {.name = "grazing", .make = near_plane_ray},
+    [RAYS_FAR] = {.name = "far", .make = far_ray},
+    [RAYS_SCALED] = {.name = "scaled", .make = scaled_ray},
+    [RAYS_INTERVAL] = {.name = "interval", .make = interval_ray},
+    [RAYS_ODD] = {.name = "odd", .make = special_ray},
+};
+
+const char *family_name(enum family family)
+{
+    return check_families[family].name;
+}
+
+struct rays rays_start(const accel_scene *scene, uint64_t seed)
+{
+    struct rays rays = {.target = {.scene = scene, .primitives = scene_primitives(scene)},
+                        .seed = seed};
+    scene_box(scene, &rays.target.box);
+    return rays;
+}
+
+accel_ray rays_make(const struct rays *rays, uint64_t index)
+{
+    struct rng d = rng_from(rays->seed, index);
+    return check_families[index % FAMILIES].make(&rays->target, NULL, &d, index / FAMILIES);
 }

@@ -71,8 +71,8 @@ accel_ray lattice_line(const struct test_scene *s, struct rng *d, struct line *l
     double org[3], dir[3];
     bool zero = true;
     for (int k = 0; k < 3; k++) {
-        const uint32_t cells = 2 * ((uint32_t)(s->box.hi[k] - s->box.lo[k]) + 4);
-        l->org[k] = 2 * (int64_t)(s->box.lo[k] - 2) + (int64_t)rng_below(d, cells);
+        const uint32_t cells = 2 * ((uint32_t)(s->target.box.hi[k] - s->target.box.lo[k]) + 4);
+        l->org[k] = 2 * (int64_t)(s->target.box.lo[k] - 2) + (int64_t)rng_below(d, cells);
         l->dir[k] = rng_chance(d, 0.35) ? 0 : 1 << rng_below(d, 4);
         if (rng_chance(d, 0.5))
             l->dir[k] = -l->dir[k];

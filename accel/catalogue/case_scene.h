@@ -10,7 +10,7 @@
 
 #include <stdio.h>
 
-#include "accel/accel.h"
+#include "rays.h"
 
 enum { MAX_GEOMETRIES = 600 };
 
@@ -46,10 +46,9 @@ struct test_scene {
     accel_scene scene; /* what accel_build takes, once scene_close was called */
     accel_geometry geometry[MAX_GEOMETRIES];
     struct part part[MAX_GEOMETRIES];
-    uint32_t count;                   /* parts */
-    accel_box box;                    /* of what is finite */
-    accel_ray *given;                 /* rays that come with the scene, of reported cases */
-    uint32_t given_count, given_room; /* of them; there is room for */
+    uint32_t count;           /* parts */
+    struct ray_target target; /* the same for rays, with those that come with reported cases */
+    uint32_t given_room;      /* of them; there is room for */
 };
 
 void scene_open(struct test_scene *s);
@@ -65,7 +64,7 @@ void part_object(struct part *p, const accel_box *box, enum behaviour behaviour,
 /* Adds a ray to those that come with the scene. */
 void scene_give(struct test_scene *s, const accel_ray *ray);
 
-/* Makes s->scene and s->box from the parts. */
+/* Makes s->scene and s->target from the parts. */
 void scene_close(struct test_scene *s);
 
 void scene_free(struct test_scene *s);

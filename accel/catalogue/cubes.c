@@ -6,7 +6,7 @@
  * cluster stands beside the first along x, `gap` cluster sides of empty space between them. Every
  * cube has its own eight vertices.
  */
-#include "scene_build.h"
+#include "generator.h"
 
 static const accel_option options[] = {
     {.key = "gap",

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "case_scene.h"
 
+#include "loaded.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -9,7 +11,7 @@ void *must_resize(void *old, size_t size)
     void *block = realloc(old, size ? size : 1);
     if (block)
         return block;
-    fprintf(stderr, "test scenes: no memory for %zu bytes\n", size);
+    fprintf(stderr, "scenes: no memory for %zu bytes\n", size);
     exit(2);
 }
 
@@ -21,7 +23,7 @@ void scene_open(struct test_scene *s)
 struct part *scene_part(struct test_scene *s, accel_type type)
 {
     if (s->count == MAX_GEOMETRIES) {
-        fprintf(stderr, "test scenes: more than %d geometries\n", MAX_GEOMETRIES);
+        fprintf(stderr, "scenes: more than %d geometries\n", MAX_GEOMETRIES);
         exit(2);
     }
     struct part *p = &s->part[s->count++];
@@ -74,11 +76,11 @@ void part_object(struct part *p, const accel_box *box, enum behaviour behaviour,
 
 void scene_give(struct test_scene *s, const accel_ray *ray)
 {
-    if (s->given_count == s->given_room) {
+    if (s->target.given_count == s->given_room) {
         s->given_room = s->given_room ? 2 * s->given_room : 16;
-        s->given = must_resize(s->given, s->given_room * sizeof *s->given);
+        s->target.given = must_resize(s->target.given, s->given_room * sizeof *s->target.given);
     }
-    s->given[s->given_count++] = *ray;
+    s->target.given[s->target.given_count++] = *ray;
 }
 
 static size_t part_doubles(const struct part *p)
@@ -96,31 +98,6 @@ void scene_move(struct test_scene *s, double scale, const double shift[3])
         for (size_t i = 0; i < part_doubles(p); i++) {
             const size_t k = p->type == ACCEL_TRIANGLES ? i % 3 : i % 4;
             p->data[i] = p->data[i] * scale + (k < 3 ? shift[k] : 0.0);
-        }
-    }
-}
-
-static void add_point(accel_box *b, const double *x, double radius)
-{
-    for (int k = 0; k < 3; k++) {
-        if (!(fabs(x[k]) <= ACCEL_MAX_COORDINATE) || !(radius <= ACCEL_MAX_COORDINATE))
-            continue;
-        b->lo[k] = fmin(b->lo[k], x[k] - radius);
-        b->hi[k] = fmax(b->hi[k], x[k] + radius);
-    }
-}
-
-static void add_part(accel_box *b, const struct part *p)
-{
-    for (uint32_t i = 0; i < p->count; i++) {
-        if (p->type == ACCEL_OBJECTS) {
-            add_point(b, p->boxes[i].lo, 0.0);
-            add_point(b, p->boxes[i].hi, 0.0);
-        } else if (p->type == ACCEL_SPHERES) {
-            add_point(b, p->data + 4 * (size_t)i, fabs(p->data[4 * (size_t)i + 3]));
-        } else {
-            for (size_t corner = 0; corner < 3; corner++)
-                add_point(b, p->data + 9 * (size_t)i + 3 * corner, 0.0);
         }
     }
 }
@@ -149,18 +126,12 @@ static accel_geometry describe_part(struct part *p)
 
 void scene_close(struct test_scene *s)
 {
-    const double inf = (double)INFINITY;
-    s->box = (accel_box){{inf, inf, inf}, {-inf, -inf, -inf}};
-    for (uint32_t g = 0; g < s->count; g++) {
-        add_part(&s->box, &s->part[g]);
+    for (uint32_t g = 0; g < s->count; g++)
         s->geometry[g] = describe_part(&s->part[g]);
-    }
-    for (int k = 0; k < 3; k++)
-        if (!(s->box.lo[k] <= s->box.hi[k])) {
-            s->box.lo[k] = 0.0;
-            s->box.hi[k] = 1.0;
-        }
     s->scene = (accel_scene){s->geometry, s->count};
+    s->target.scene = &s->scene;
+    s->target.primitives = scene_primitives(&s->scene);
+    scene_box(&s->scene, &s->target.box);
 }
 
 void scene_free(struct test_scene *s)
@@ -172,7 +143,7 @@ void scene_free(struct test_scene *s)
         free(p->boxes);
         free(p->objects);
     }
-    free(s->given);
+    free(s->target.given);
     scene_open(s);
 }
 

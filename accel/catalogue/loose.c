@@ -27,7 +27,7 @@ void random_triangle(struct part *p, struct rng *d, double edge)
     part_triangle(p, a, b, c);
 }
 
-void make_soup(struct test_scene *s, struct rng *d, double count)
+void make_shards(struct test_scene *s, struct rng *d, double count)
 {
     struct part *p = scene_part(s, ACCEL_TRIANGLES);
     for (uint32_t i = 0; i < (uint32_t)count; i++)
@@ -44,14 +44,14 @@ void make_log_sizes(struct test_scene *s, struct rng *d, double count)
 void make_scaled(struct test_scene *s, struct rng *d, double factor)
 {
     const double nowhere[3] = {0, 0, 0};
-    make_soup(s, d, 300);
+    make_shards(s, d, 300);
     scene_move(s, factor, nowhere);
 }
 
 void make_shifted(struct test_scene *s, struct rng *d, double offset)
 {
     const double odd[3] = {148376, 1234, -223423}, even[3] = {offset, -offset, offset};
-    make_soup(s, d, 300);
+    make_shards(s, d, 300);
     scene_move(s, 1.0, offset == 0 ? odd : even);
 }
 
@@ -73,7 +73,7 @@ void make_slivers(struct test_scene *s, struct rng *d, double count)
 }
 
 /* A ball of 8 * 4^levels triangles, 1e-3 large, somewhere in a box of 1e3 with a few seats. */
-void make_stadium(struct test_scene *s, struct rng *d, double levels)
+void make_speck(struct test_scene *s, struct rng *d, double levels)
 {
     struct part *p = scene_part(s, ACCEL_TRIANGLES);
     const double centre[3] = {123.456, -321.0, 7.25};
@@ -169,7 +169,7 @@ void make_huge_and_tiny(struct test_scene *s, struct rng *d, double unused)
 void make_mixed(struct test_scene *s, struct rng *d, double count)
 {
     const uint32_t n = (uint32_t)fabs(count) / 3;
-    make_soup(s, d, n);
+    make_shards(s, d, n);
     for (int order = 0; order < 2; order++) {
         struct part *p = scene_part(s, ACCEL_OBJECTS);
         p->order = order == 0 || count < 0 ? ACCEL_ORDER_KEY : ACCEL_ORDER_RAW;
@@ -185,5 +185,5 @@ void make_mixed(struct test_scene *s, struct rng *d, double count)
         random_point(d, x);
         part_sphere(p, x, rng_power(d, -10, -2));
     }
-    make_soup(s, d, n);
+    make_shards(s, d, n);
 }

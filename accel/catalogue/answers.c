@@ -1,8 +1,5 @@
-/* SPDX-License-Identifier: Apache-2.0
- *
- * Asking a structure and comparing answers.
- */
-#include "judge.h"
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "answers.h"
 
 #include <string.h>
 
@@ -26,27 +23,30 @@ static bool keep_id(void *user, accel_id id)
     return answers->point_count < KEPT;
 }
 
-void ask_judge(const accel *judge, const struct question *question, accel_query *query,
-               struct answers *answers)
+void answers_ask_judge(const accel *judge, const accel_ray *ray, accel_query *query,
+                       struct answers *answers)
 {
     const accel_hit nothing = {-1.0, -2.0, -3.0, 4, 5};
     answers->closest = nothing;
     answers->all_count = 0;
     answers->point_count = 0;
-    answers->found = accel_closest(judge, &question->ray, &answers->closest, query);
+    answers->ended = true;
+    answers->found = accel_closest(judge, ray, &answers->closest, query);
     answers->any = answers->found;
     answers->untouched = answers->found || same_hit(&answers->closest, &nothing);
-    if (question->lists) {
-        accel_all(judge, &question->ray, keep_hit, answers, query);
-        accel_point(judge, question->point, keep_id, answers, query);
-    }
 }
 
-void ask(const accel *a, const struct question *question, accel_query *query,
-         struct answers *answers)
+void answers_ask(const accel *a, const accel_ray *ray, accel_query *query, struct answers *answers)
 {
-    ask_judge(a, question, query, answers);
-    answers->any = accel_any(a, &question->ray, query);
+    answers_ask_judge(a, ray, query, answers);
+    answers->any = accel_any(a, ray, query);
+}
+
+void answers_ask_lists(const accel *a, const accel_ray *ray, const double point[3],
+                       accel_query *query, struct answers *answers)
+{
+    answers->ended = accel_all(a, ray, keep_hit, answers, query);
+    accel_point(a, point, keep_id, answers, query);
 }
 
 static bool same_list(const struct answers *expected, const struct answers *got)
@@ -68,8 +68,8 @@ static bool same_ids(const struct answers *expected, const struct answers *got)
     return same;
 }
 
-unsigned count_differences(const struct question *question, const struct answers *expected,
-                           const struct answers *got)
+unsigned answers_differ(const struct question *question, const struct answers *expected,
+                        const struct answers *got)
 {
     unsigned differences = 0;
     if (expected->found != got->found || !got->untouched ||

@@ -1,15 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The scenes and rays behind the stiff and extreme cases: each generator once, for the tests and
- * for reports. Scenes and families of rays belong to a test, such as "slivers"; "mix" is the
- * family that every scene is shot with: random, aimed at vertices and edges, axis-parallel with
- * both zeros, grazing.
+ * The stiff and extreme scenes: each generator once, for the command, the tests and the reports.
+ * Scenes and families of rays belong to a test, such as "slivers".
  */
 #ifndef CASES_CATALOGUE_H
 #define CASES_CATALOGUE_H
 
-#include "rng.h"
 #include "case_scene.h"
+#include "loaded.h"
 
 struct scene_maker {
     const char *test;    /* "slivers" */
@@ -30,19 +28,8 @@ const struct scene_maker *scene_maker_find(const char *name);
 /* Makes a scene; ends with scene_free. */
 void scene_make(struct test_scene *s, const struct scene_maker *maker, uint64_t seed);
 
-struct ray_family {
-    const char *test;    /* "special-rays", or "mix" */
-    const char *name;    /* unique, one word */
-    const char *meaning; /* one line */
-    /* The i-th ray. `judge` is a linear structure over the scene. */
-    accel_ray (*make)(const struct test_scene *s, const accel *judge, struct rng *d, uint64_t i);
-    uint32_t rays;             /* at intensity 1, over all its scenes */
-    const char *const *scenes; /* the names of scenes that it is made for, NULL-ended */
-};
-
-extern const struct ray_family ray_families[];
-
-const struct ray_family *ray_family_find(const char *name);
+/* The same as a scene of the command, which owns it. */
+void case_load(struct loaded *out, const struct scene_maker *maker, uint64_t seed);
 
 /* A factor for all counts: the environment's ACCEL_TEST_INTENSITY, 1 if it is not set. */
 double test_intensity(void);
@@ -56,8 +43,8 @@ bool takes_turn(uint64_t i);
 
 /* The generators, by file. */
 typedef void make_scene(struct test_scene *s, struct rng *d, double param);
-make_scene make_soup, make_log_sizes, make_scaled, make_shifted, make_slivers, make_stadium,
-    make_huge_and_tiny, make_mixed; /* soups.c */
+make_scene make_shards, make_log_sizes, make_scaled, make_shifted, make_slivers, make_speck,
+    make_huge_and_tiny, make_mixed; /* loose.c */
 make_scene make_degenerate, make_coincident, make_nested, make_series, make_few, make_all_invalid,
     make_empty;                                                                  /* limits.c */
 make_scene make_skinny, make_slab, make_collision, make_pyramid, make_quantised; /* reported.c */

@@ -2,8 +2,8 @@
  *
  * Random scenes: triangles and spheres in the unit cube, sizes uniform on a log scale.
  */
-#include "tool/random.h"
-#include "scene_build.h"
+#include "random.h"
+#include "generator.h"
 
 enum { STREAM_SOUP = 1000, STREAM_SPHERES = 1001 };
 
