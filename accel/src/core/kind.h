@@ -9,6 +9,7 @@
 #include <time.h>
 
 #include "accel/accel.h"
+#include "cost.h"
 #include "error.h"
 #include "memory.h"
 #include "../primitive/primitives.h"
@@ -46,23 +47,6 @@ struct build {
     size_t untold;               /* primitives looked at since the last question for the time */
     uint32_t sizes[BUILD_SIZES]; /* how many bounded primitives have a longest side with this binary
                                     exponent */
-};
-
-/* How a kind's nodes per ray grow with the primitives. */
-enum kind_growth { GROWS_LIKE_LOG, GROWS_LIKE_FIFTH_ROOT, GROWS_LIKE_N };
-
-/* What a kind costs, for `auto`: nanoseconds where all is in the cache. Fitted to the counts and
- * times that `accel bench` prints, by least squares of what a kind takes over the mean of all kinds
- * on the same rays: how much a scene strains the caches is alike for all and drops out. */
-struct kind_cost {
-    double build;    /* per primitive and level, n * log2 n in all */
-    double ray;      /* per ray, before the first node */
-    double node;     /* per node or cell visited */
-    double triangle; /* per triangle tested */
-    double other;    /* per other primitive tested; of an object, until its callback is called */
-    double mesh;     /* share of the visits to a thinned mesh, whose triangles overlap when scaled,
-                        that remain in the mesh itself, where they do not */
-    enum kind_growth growth;
 };
 
 struct accel_kind {

@@ -8,7 +8,7 @@
  *     time = build(n) + rays * (ray + node * nodes + test * tests + miss * (nodes + tests)
  *                               + call * calls)
  *
- * with the kind's cost figures (kind.h) and the way its counts grow from the sample's size to n.
+ * with the kind's cost figures (cost.h) and the way its counts grow from the sample's size to n.
  * Counts, not clocks, so the choice is the same on every machine and run. The selector's idea is
  * from Subramanian and Fussell, "Automatic Termination Criteria for Ray Tracing Hierarchies", GI
  * 1991, and Hapala, Karlik and Havran, "When It Makes Sense to Use Uniform Grids for Ray Tracing",
@@ -32,14 +32,6 @@ enum { PILOT = 256 };
 
 /* Below this many seconds of predicted linear search, choosing costs more than it can save. */
 #define WORTH_CHOOSING 0.005
-
-/* Nanoseconds that a node or a test waits for memory, for each doubling of the structure's bytes
- * beyond CACHE. Fitted with the kinds' figures to 24 scenes of up to 130 MB. */
-#define MISS  4.0
-#define CACHE 2e6
-
-/* Nanoseconds of one call of a host's object, if the host does not say. */
-#define CALL 100.0
 
 enum { RAYS };
 
@@ -161,7 +153,7 @@ static double predict_ray(const struct chooser *c, const struct candidate *k)
     const double nodes = k->nodes * mesh * grown;
     const double tests = k->tests * mesh * (cost->growth == GROWS_LIKE_N ? grown : 1.0);
     const double test = c->triangles * cost->triangle + (1.0 - c->triangles) * cost->other;
-    const double miss = MISS * log2(1.0 + k->bytes * n / CACHE);
+    const double miss = COST_MISS * log2(1.0 + k->bytes * n / COST_CACHE);
     return cost->ray + (cost->node + miss) * nodes + (test + miss) * tests + c->call * k->calls;
 }
 
@@ -183,7 +175,7 @@ static void weigh_primitives(struct chooser *c)
             triangles += geometry->count;
         if (geometry->type == ACCEL_OBJECTS) {
             objects += geometry->count;
-            calls += geometry->count * (geometry->cost > 0.0 ? geometry->cost : CALL);
+            calls += geometry->count * (geometry->cost > 0.0 ? geometry->cost : COST_CALL);
         }
     }
     c->triangles = triangles / p->count;

@@ -11,12 +11,6 @@
 #include "../core/kind.h"
 #include "../core/seal.h"
 
-/* Mean cost of one test in units of a node's visit: measured for triangles and spheres; a host's
- * object runs through at least a callback. */
-#define TRIANGLE_COST 0.4
-#define SPHERE_COST   1.5
-#define OBJECT_COST   6.0
-
 /* What becomes of one primitive. */
 enum sort { BOUNDED, UNBOUNDED, DEGENERATE, INVALID };
 
@@ -292,13 +286,13 @@ static bool copy_geometry(struct build *build, const accel_geometry *from, uint3
 
 static double mean_cost(const struct primitives *p)
 {
-    static const double cost[] = {TRIANGLE_COST, SPHERE_COST, OBJECT_COST};
+    static const double cost[] = {COST_TRIANGLE, COST_SPHERE, COST_OBJECT};
     double sum = 0.0, count = 0.0;
     for (uint32_t g = 0; g < p->geometry_count; g++) {
         sum += cost[p->geometry[g].type] * p->geometry[g].count;
         count += p->geometry[g].count;
     }
-    return count > 0.0 ? sum / count : TRIANGLE_COST;
+    return count > 0.0 ? sum / count : COST_TRIANGLE;
 }
 
 static uint32_t scene_size(const accel_scene *scene)

@@ -49,7 +49,7 @@ struct primitives {
     uint64_t box_seal;         /* over all boxes: see seal.h */
     uint64_t data_seal;        /* over the triangles and spheres that are bounded */
     uint64_t geometry_seal;    /* over the geometries, once all is built */
-    double test_cost;          /* mean cost of a test in units of visiting a node */
+    double test_cost;          /* mean cost of a test: see cost.h */
 };
 
 /* Copies and checks the scene, filling the counts in build->a->info. False: see build->error. */

@@ -134,9 +134,9 @@ bool accel_wide_find_box(const struct wide *w, uint32_t id, accel_box *box);
 
 /* What leaves look like and cost. */
 struct wide_rule {
-    unsigned lanes;   /* primitives that a leaf tests at once */
-    bool pool;        /* share vertices */
-    double node_cost; /* of a visit, in units of testing `lanes` primitives */
+    unsigned lanes;  /* primitives that a leaf tests at once */
+    bool pool;       /* share vertices */
+    float node_cost; /* of a visit: see cost.h */
 };
 
 /* How the binary tree is cut. */

@@ -236,7 +236,7 @@ static bool works_here(void)
 const struct wide_isa accel_wide_avx512 = {
     .name = "avx512",
     .works_here = works_here,
-    .rule = {.lanes = 8, .pool = true, .node_cost = 1.0},
+    .rule = {.lanes = 8, .pool = true, .node_cost = COST_WIDE_NODE},
     .closest = closest,
     .any = any,
     .walk = walk,
