@@ -13,7 +13,9 @@
 #ifndef ACCEL_AUTO_SAMPLE_H
 #define ACCEL_AUTO_SAMPLE_H
 
-#include "../core/kind.h"
+#include "../core/build.h"
+#include "../core/cost.h"
+#include "../core/structure.h"
 
 enum { SAMPLE = 4096 };
 

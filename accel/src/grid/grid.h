@@ -19,7 +19,9 @@
 #ifndef ACCEL_GRID_H
 #define ACCEL_GRID_H
 
-#include "../core/kind.h"
+#include "../core/build.h"
+#include "../core/cost.h"
+#include "../core/structure.h"
 #include "../primitive/query.h"
 
 /* Cells of a brick along each axis, and in all: one bit of a mask each. */

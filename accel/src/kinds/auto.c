@@ -21,6 +21,7 @@
  * Cost: some tens of milliseconds, whatever the scene. Bad at: scenes whose structure a sample does
  * not show; hosts whose later rays are unlike the pilot.
  */
+#include "../core/kind.h"
 #include "../auto/auto_sample.h"
 #include "../core/config.h"
 #include "../core/number.h"

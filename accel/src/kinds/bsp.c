@@ -11,6 +11,7 @@
  * into two whose grown intervals overlap at the plane's own t. It holds at the root, which contains
  * P'. And what the cell and P' share has an interval inside S of the cell.
  */
+#include "../core/kind.h"
 #include "../bsp/bsp.h"
 
 /* A cell to visit later: the part of the ray inside it. */

@@ -6,6 +6,7 @@
  * Invariant, encoding, cost: wide/wide.h. Bad at: primitives whose boxes overlap much, such as long
  * thin ones across each other.
  */
+#include "../core/kind.h"
 #include "../wide/wide_form.h"
 
 struct bvh {

@@ -6,6 +6,7 @@
  *
  * Encoding, invariant and cost: see grid.h. The walk: see grid_walk.h.
  */
+#include "../core/kind.h"
 #include "../grid/grid_walk.h"
 
 #include "../core/number.h"

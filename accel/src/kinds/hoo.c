@@ -23,6 +23,7 @@
  * Cost: as an octree, without the empty space between clusters and without cells as small as one
  * cluster needs in all the others. Bad at: scenes that are one cluster gain nothing.
  */
+#include "../core/kind.h"
 #include "../cluster/cluster.h"
 #include "../octree/octree_deferred.h"
 #include "../hoo/hoo_pairing.h"

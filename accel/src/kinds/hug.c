@@ -2,6 +2,7 @@
  *
  * The kind hug: see hug.h.
  */
+#include "../core/kind.h"
 #include "../hug/hug.h"
 
 #include "../grid/grid_walk.h"

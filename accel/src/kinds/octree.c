@@ -10,6 +10,7 @@
  * wide: a wide tree (wide/wide.h) cut along the three axes in turn, where the cost is lowest; a
  * primitive goes to the octant of its centre.
  */
+#include "../core/kind.h"
 #include "../octree/octree.h"
 #include "../wide/wide_form.h"
 

@@ -224,7 +224,7 @@ static bool too_large(const struct grower *g, const char *what)
         g->build->error, ACCEL_TOO_LARGE,
         "build %s: more than 4294967295 %s; nothing was built, allow more primitives per leaf "
         "or less depth",
-        g->build->a->kind->info.name, what);
+        g->build->kind, what);
     return false;
 }
 
@@ -429,7 +429,8 @@ static struct grower grower_of(struct build *build, struct octree_pool *pool,
                            .pool = pool,
                            .box = prims->box,
                            .rule = rule,
-                           .test_cost = prims->only_triangles ? COST_OCTREE_TRIANGLE : prims->test_cost};
+                           .test_cost =
+                               prims->only_triangles ? COST_OCTREE_TRIANGLE : prims->test_cost};
 }
 
 static double budget_of(struct octree_rule rule, size_t count)

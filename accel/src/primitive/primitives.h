@@ -52,8 +52,8 @@ struct primitives {
     double test_cost;          /* mean cost of a test: see cost.h */
 };
 
-/* Copies and checks the scene, filling the counts in build->a->info. False: see build->error. */
-bool accel_primitives_copy(struct build *build, const accel_scene *scene);
+/* Copies and checks the scene, filling the counts in build->info. False: see build->error. */
+bool accel_primitives_copy(struct build *build, struct primitives *p, const accel_scene *scene);
 
 /* Where there are only bounded triangles, and the kind keeps their vertices: frees vertices, boxes
  * and the list of ids (not its count), for good. */

@@ -20,7 +20,9 @@
 #ifndef ACCEL_WIDE_H
 #define ACCEL_WIDE_H
 
-#include "../core/kind.h"
+#include "../core/build.h"
+#include "../core/cost.h"
+#include "../core/structure.h"
 #include "../primitive/query.h"
 
 /* Children of a node at most; levels of a tree at most; primitives of a block at most. */

@@ -7,7 +7,9 @@
 #include <immintrin.h>
 
 #include "../core/contract.h"
-#include "../core/kind.h"
+#include "../core/build.h"
+#include "../core/cost.h"
+#include "../core/structure.h"
 #include "../primitive/query.h"
 #include "wide_isa.h"
 
