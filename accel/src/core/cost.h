@@ -20,26 +20,20 @@ struct kind_cost {
     double node;     /* per node or cell visited */
     double triangle; /* per triangle tested */
     double other;    /* per other primitive tested; of an object, until its callback is called */
-    double mesh;     /* correction for meshes: a sample's triangles are scaled up and overlap;
-                        multiply its visits by this */
     enum kind_growth growth;
 };
 
-/* Of the kinds, in the order above. */
+/* Of the kinds, in the order above. octree, hoo and bvh walk the same kind of tree: rays cost the
+ * same in them, nodes and tests only differ in number. */
 /* clang-format off */
-#define COST_LINEAR {  0,  40,  0, 16.5,  6.0, 1.00, GROWS_LIKE_N}
-#define COST_GRID   { 15, 107, 34,  8.7, 14.3, 1.00, GROWS_LIKE_FIFTH_ROOT}
-#define COST_HUG    { 40, 107, 34,  8.7, 14.3, 1.00, GROWS_LIKE_FIFTH_ROOT}
-#define COST_OCTREE { 17,  70, 30,  7.0, 11.0, 1.00, GROWS_LIKE_LOG}
-#define COST_HOO    { 27,  58, 36,  4.5, 11.0, 1.00, GROWS_LIKE_LOG}
-#define COST_BSP    {127,  78, 13,  4.5, 10.5, 1.00, GROWS_LIKE_LOG}
-#define COST_BVH    { 41,  58, 17,  2.5, 22.0, 0.65, GROWS_LIKE_LOG}
+#define COST_LINEAR {  0, 250,  0, 22.0, 16.0, GROWS_LIKE_N}
+#define COST_GRID   { 20, 150, 42, 19.5, 55.0, GROWS_LIKE_FIFTH_ROOT}
+#define COST_HUG    { 45, 150, 42, 19.5, 55.0, GROWS_LIKE_FIFTH_ROOT}
+#define COST_OCTREE { 90,  19, 26, 15.7, 33.0, GROWS_LIKE_LOG}
+#define COST_HOO    { 65,  19, 26, 15.7, 33.0, GROWS_LIKE_LOG}
+#define COST_BSP    {160,  89, 20, 16.5, 47.0, GROWS_LIKE_LOG}
+#define COST_BVH    { 80,  19, 26, 15.7, 33.0, GROWS_LIKE_LOG}
 /* clang-format on */
-
-/* That a node or a test waits for memory, for each doubling of the structure's bytes beyond
- * COST_CACHE. Fitted with the kinds' figures to 24 scenes of up to 130 MB. */
-#define COST_MISS  4.0
-#define COST_CACHE 2e6
 
 /* A call of a host's object, if the host does not say. */
 #define COST_CALL 100.0

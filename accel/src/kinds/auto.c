@@ -5,8 +5,7 @@
  * Method: build every kind over a sample of the scene (auto_sample.h), trace a pilot of rays
  * through each, count nodes, tests and calls of host objects, and predict
  *
- *     time = build(n) + rays * (ray + node * nodes + test * tests + miss * (nodes + tests)
- *                               + call * calls)
+ *     time = build(n) + rays * (ray + node * nodes + test * tests + call * calls)
  *
  * with the kind's cost figures (cost.h) and the way its counts grow from the sample's size to n.
  * Counts, not clocks, so the choice is the same on every machine and run. The selector's idea is
@@ -48,7 +47,6 @@ static const accel_option options[] = {
 struct candidate {
     const struct accel_kind *kind;
     double nodes, tests, calls; /* per ray of the pilot */
-    double bytes;               /* per primitive of the sample */
     double seconds;             /* predicted for the whole scene */
 };
 
@@ -149,13 +147,10 @@ static double predict_ray(const struct chooser *c, const struct candidate *k)
     const struct kind_cost *cost = &k->kind->cost;
     const double n = (double)c->build->a->prims.bounded.count, from = (double)c->sample.count;
     const double grown = growth(cost->growth, from, n);
-    const double joined = n > from ? (double)c->sample.joined / from : 0.0;
-    const double mesh = 1.0 - joined * (1.0 - cost->mesh);
-    const double nodes = k->nodes * mesh * grown;
-    const double tests = k->tests * mesh * (cost->growth == GROWS_LIKE_N ? grown : 1.0);
+    const double nodes = k->nodes * grown;
+    const double tests = k->tests * (cost->growth == GROWS_LIKE_N ? grown : 1.0);
     const double test = c->triangles * cost->triangle + (1.0 - c->triangles) * cost->other;
-    const double miss = COST_MISS * log2(1.0 + k->bytes * n / COST_CACHE);
-    return cost->ray + (cost->node + miss) * nodes + (test + miss) * tests + c->call * k->calls;
+    return cost->ray + cost->node * nodes + test * tests + c->call * k->calls;
 }
 
 static double predict(const struct chooser *c, const struct candidate *k)
@@ -194,7 +189,6 @@ static bool try_kind(struct chooser *c, struct candidate *k)
     if (accel_build(&a, &c->sample.scene, k->kind->info.name, &hooks, build->error) != ACCEL_OK)
         return false;
     fly_pilot(c, a, k);
-    k->bytes = (double)a->memory.bytes / (double)c->sample.count;
     m->peak = m->bytes + a->memory.peak > m->peak ? m->bytes + a->memory.peak : m->peak;
     accel_free(a);
     k->seconds = predict(c, k);
