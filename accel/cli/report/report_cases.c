@@ -319,7 +319,7 @@ bool report_cases(struct reporting *r, double seconds)
     if (!fine) {
         fclose(csv);
     } else if ((fine = report_csv_close(r, csv, ACCEL_CASES_CSV))) {
-        cases_page(r, x->rows, x->count);
+        fine = cases_page(r, x->rows, x->count);
     }
     free(x);
     return fine;
