@@ -25,6 +25,14 @@ packages_stock=(povray povray-includes)
 packages_fast=(libcmocka-dev locales)
 packages_tests=("${packages_fast[@]}" povray-examples libembree-dev gnuplot-nox libxml2-utils clang)
 
+# What the choice of auto is fitted to and judged by; the last three come by fetch.sh.
+# shellcheck disable=SC2034 # for results.sh and costs.sh
+choice_scenes=(cubes:gap=1 cubes:gap=100 cubes:gap=0,space=0.1 teapots teapots:quads=3 stadium stadium:quads=15
+    soup:n=1000 soup:n=30000 soup:n=300000 soup:min=0.1,n=3000 soup:max=0.01,n=50000
+    soup:min=0.001,max=0.003,n=200000 spheres:n=30 spheres:n=1000 spheres:n=8000 spheres:n=50000
+    spheres:n=400000 spheres:n=3000,min=0.05,max=0.1 spheres:n=20000,min=0.02,max=0.05 nested:n=50 same:n=200
+    build/scenes/bunny.off build/scenes/armadillo.off build/scenes/dragon.ply)
+
 say() { printf '%s\n' "$*"; }
 
 # Ends the script with one clear line.

@@ -61,12 +61,7 @@ section "Structures and Embree, ray for ray" build/accel bench teapots cubes:gap
 section "With AVX2, and with plain C" build/accel bench teapots $dragon spheres:n=8000 \
     -a bvh -a bvh:isa=avx2 -a bvh:isa=portable --peers "${rays[@]}"
 section "Spheres" build/accel bench spheres:n=1000 spheres:n=8000 spheres:n=400000 "${rays[@]}"
-section "The choice of auto" build/accel bench -n 3000 --repeats 5 --judged 20 cubes:gap=1 cubes:gap=100 \
-    cubes:gap=0,space=0.1 teapots teapots:quads=3 stadium stadium:quads=15 soup:n=1000 soup:n=30000 \
-    soup:n=300000 soup:min=0.1,n=3000 soup:max=0.01,n=50000 soup:min=0.001,max=0.003,n=200000 \
-    spheres:n=30 spheres:n=1000 spheres:n=8000 spheres:n=50000 spheres:n=400000 \
-    spheres:n=3000,min=0.05,max=0.1 spheres:n=20000,min=0.02,max=0.05 nested:n=50 same:n=200 \
-    build/scenes/{bunny,armadillo}.off $dragon
+section "The choice of auto" build/accel bench -n 3000 --repeats 5 --judged 20 "${choice_scenes[@]}"
 section "Built where rays go" build/accel lazy stadium teapots $dragon "${lazy[@]}"
 section "Finding clusters" build/accel clusters "${clusters[@]}"
 section "Whole renders by POV-Ray" scenes/times.sh $runs hoo bsp bvh auto

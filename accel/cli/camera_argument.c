@@ -6,27 +6,12 @@
 
 #include <string.h>
 
-/* Reads three numbers that are separated by commas, up to `length` bytes. */
-static bool read_point(const char *text, size_t length, double out[3])
-{
-    for (int k = 0; k < 3; k++) {
-        const char *comma = memchr(text, ',', length);
-        const size_t part = k == 2 || comma == NULL ? length : (size_t)(comma - text);
-        if ((k < 2 && comma == NULL) || !read_number(text, part, &out[k])) {
-            return false;
-        }
-        text += part + (k < 2);
-        length -= part + (k < 2);
-    }
-    return true;
-}
-
 static bool read_camera(const char *text, double eye[3], double at[3], double *fov)
 {
     const char *first = strchr(text, ':');
     const char *second = first == NULL ? NULL : strchr(first + 1, ':');
-    return second != NULL && read_point(text, (size_t)(first - text), eye) &&
-           read_point(first + 1, (size_t)(second - first - 1), at) &&
+    return second != NULL && read_numbers(text, (size_t)(first - text), eye, 3) &&
+           read_numbers(first + 1, (size_t)(second - first - 1), at, 3) &&
            read_number(second + 1, strlen(second + 1), fov);
 }
 

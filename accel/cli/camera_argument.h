@@ -5,7 +5,7 @@
 #ifndef ACCEL_CLI_CAMERA_ARGUMENT_H
 #define ACCEL_CLI_CAMERA_ARGUMENT_H
 
-#include "scenes/camera.h"
+#include "camera.h"
 #include "tool/options.h"
 #include "scenes/scene.h"
 

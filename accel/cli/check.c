@@ -100,7 +100,7 @@ static bool add_second_opinion(struct check *check)
 
 static uint64_t default_judged(const struct check *check)
 {
-    const double tests = (double)check->rays.primitives;
+    const double tests = (double)check->rays.target.primitives;
     const uint64_t judged = tests * (double)check->ray_count <= DEFAULT_TESTS
                                 ? check->ray_count
                                 : (uint64_t)(DEFAULT_TESTS / tests);
@@ -214,6 +214,7 @@ static int run(const struct command *command, int argc, char **argv)
 
 const struct command command_check = {
     .name = "check",
+    .takes_objects = true,
     .arguments = "SCENE [-a CONFIG]... [--rays N] [--seed S] [--threads T]",
     .summary = "compare structures with linear, bit for bit, over adversarial rays",
     .details =

@@ -152,6 +152,7 @@ static int run(const struct command *command, int argc, char **argv)
 
 const struct command command_info = {
     .name = "info",
+    .takes_objects = true,
     .arguments = "SCENE [-a CONFIG]...",
     .summary = "build structures over a scene and describe them",
     .details =

@@ -4,7 +4,8 @@
  * tables that their parsers use.
  */
 #include "commands.h"
-#include "scenes/scene.h"
+#include "catalogue.h"
+#include "generator.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -62,10 +63,14 @@ static int run(const struct command *command, int argc, char **argv)
     for (size_t i = 0; i < count; i++) {
         print_kind(kinds[i]);
     }
-    kinds = scene_kinds(&count);
     printf("\nBuilt-in scenes, SCENE = name[:key=value[,key=value]...]:\n\n");
-    for (size_t i = 0; i < count; i++) {
-        print_kind(kinds[i]);
+    for (size_t i = 0; generators[i] != NULL; i++) {
+        print_kind(&generators[i]->info);
+    }
+    printf("\nStiff and extreme scenes, SCENE = name[:seed=number] (host objects: info and check "
+           "only):\n\n");
+    for (const struct scene_maker *maker = scene_makers; maker->name != NULL; maker++) {
+        printf("%-16s %s\n", maker->name, maker->meaning);
     }
     return EXIT_FINE;
 }

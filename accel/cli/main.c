@@ -42,13 +42,12 @@ static int print_overview(void)
 
 static int complain_of_command(const char *name)
 {
-    const char *nearest = NULL;
-    size_t distance = SIZE_MAX;
+    struct nearest likely = {.found = {name, strlen(name)}};
     for (size_t i = 0; i < COMMANDS; i++) {
-        nearest_offer(name, strlen(name), commands[i]->name, &nearest, &distance);
+        accel_nearest_offer(&likely, commands[i]->name);
     }
     fprintf(stderr, "accel: unknown command '%.60s'%s%s; 'accel --help' lists all\n", name,
-            nearest == NULL ? "" : "; nearest is ", nearest == NULL ? "" : nearest);
+            likely.word == NULL ? "" : "; nearest is ", likely.word == NULL ? "" : likely.word);
     return EXIT_BAD;
 }
 

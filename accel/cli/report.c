@@ -6,7 +6,6 @@
 #include "report/report.h"
 #include "tool/words.h"
 
-#include <errno.h>
 #include <string.h>
 
 enum { FLAG_OUTPUT, FLAG_QUICK, FLAG_MINUTES, FLAG_ONLY };
@@ -72,19 +71,11 @@ static bool run_parts(struct reporting *r, const request *q)
 
 static bool make_report(struct reporting *r, const request *q)
 {
-    r->page = folder_write(&r->folder, "index.html");
-    if (r->page == NULL) {
-        complain(r->command, "cannot write index.html: %s; nothing was written", strerror(errno));
-        return false;
-    }
-    page_open(r);
-    const bool fine = run_parts(r, q);
+    bool fine = page_open(r) && run_parts(r, q);
     progress_clear(&r->progress);
-    if (!fine) {
-        fclose(r->page);
-        return false;
-    }
-    return page_close(r);
+    fine = fine && page_write(r);
+    page_free(r);
+    return fine;
 }
 
 static int run_request(const struct command *command, const request *q, bool quiet)

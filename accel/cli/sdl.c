@@ -64,7 +64,7 @@ bool sdl_fits(const accel_scene *scene, enum sdl_form form, accel_error *error)
         }
     }
     if (scene->count == 0) {
-        snprintf(error->text, sizeof error->text, "there is nothing in the scene");
+        snprintf(error->text, sizeof error->text, "the scene has no triangles");
     }
     return scene->count != 0;
 }

@@ -68,6 +68,15 @@ static void note_left_out(const struct loaded *loaded, const char *name,
     }
 }
 
+static bool has_objects(const accel_scene *scene)
+{
+    bool found = false;
+    for (uint32_t g = 0; g < scene->count; g++) {
+        found = found || scene->geometries[g].type == ACCEL_OBJECTS;
+    }
+    return found;
+}
+
 bool open_scene(struct loaded *loaded, const char *name, const struct command *command,
                 struct progress *progress)
 {
@@ -76,12 +85,20 @@ bool open_scene(struct loaded *loaded, const char *name, const struct command *c
     const bool fine = load_scene(loaded, name, progress_load, progress, &error);
     progress->what = NULL;
     progress_clear(progress);
-    if (fine) {
-        note_left_out(loaded, name, command);
-    } else {
+    if (!fine) {
         complain(command, "%s", error.text);
+        return false;
     }
-    return fine;
+    if (!command->takes_objects && has_objects(&loaded->scene)) {
+        unload_scene(loaded);
+        complain(command,
+                 "scene %s has objects of a host, allowed are triangles and spheres; "
+                 "nothing was done",
+                 name);
+        return false;
+    }
+    note_left_out(loaded, name, command);
+    return true;
 }
 
 /* Says, once in a run, that primitives are missing from what follows. */

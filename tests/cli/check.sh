@@ -45,6 +45,14 @@ for scene in empty one same:n=300 nested spheres:n=500; do
     says " 0 mismatches; structures are valid"
 done
 
+# The catalogue's scenes of the tests, of another seed, and with objects of a host, which few commands take.
+expect 0 check slivers -a "$kind" --rays 1200
+cp out first
+expect 0 check slivers:seed=2 -a "$kind" --rays 1200
+! cmp -s first out || fail "another seed gives the same scene"
+expect 0 check mixed -a "$kind" --rays 1200
+complains "has objects of a host, allowed are triangles and spheres" trace mixed -o x.exr
+
 expect 0 check one -a "$kind" --ray "0x1p-2 0.25 1 0 0 -1 0 inf"
 [ "$(grep -c 'closest geometry 0 primitive 0 t=0x1p+0 (1) u=0x1p-2 v=0x1p-2' out)" = 2 ] ||
     fail "a replayed ray has other hits: $(cat out)"

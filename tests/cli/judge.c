@@ -40,7 +40,7 @@ static void fill(struct answers *answers)
 static unsigned differences(bool lists)
 {
     const struct question question = {.lists = lists};
-    return count_differences(&question, &expected, &got);
+    return answers_differ(&question, &expected, &got);
 }
 
 static void equal_answers_agree(void **state)

@@ -7,7 +7,7 @@
 #include "mesh/mesh.h"
 #include "mesh/polygon.h"
 #include "mesh/text.h"
-#include "tool/random.h"
+#include "random.h"
 
 #include <float.h>
 #include <locale.h>
@@ -39,11 +39,7 @@ static double real(double low, double high)
 
 static mesh_text text_of(const char *text)
 {
-    return (mesh_text){.at = text,
-                       .begin = text,
-                       .end = text + strlen(text),
-                       .line = 1,
-                       .c_locale = newlocale(LC_ALL_MASK, "C", (locale_t)0)};
+    return (mesh_text){.at = text, .begin = text, .end = text + strlen(text), .line = 1};
 }
 
 /* In the C locale. */
@@ -63,7 +59,6 @@ static void check_number(const char *word)
     double number;
     const double right = expected(word);
     const bool fine = mesh_take_number(&text, &number);
-    freelocale(text.c_locale);
     if (fine != (fabs(right) <= DBL_MAX)) {
         fail_msg("'%s' is %s", word, fine ? "taken" : "refused");
     }
@@ -77,7 +72,6 @@ static void check_word(const char *word, bool right)
     mesh_text text = text_of(word);
     double number;
     const bool fine = mesh_take_number(&text, &number);
-    freelocale(text.c_locale);
     if (fine != right || text.at != (right ? text.end : word)) {
         fail_msg("'%s' is %s, %d characters", word, fine ? "taken" : "refused",
                  (int)(text.at - word));

@@ -46,7 +46,7 @@ has cases.csv "test,case,scene,judge,contender,peer,rays,decided,wrong,decided_r
 awk -F, 'NR > 1 && $6 == 0 && ($9 != 0 || $7 == 0) { exit 1 }' page/cases.csv ||
     fail "an answer of ours is wrong in cases.csv, or none was judged"
 for test in sizes scales offsets slivers reported degenerate coincident nested series lattice closed \
-    stadium huge-and-tiny ties few special-rays surface-origins interval-ends direction-lengths \
+    speck huge-and-tiny ties few special-rays surface-origins interval-ends direction-lengths \
     secondary-rays odd-objects; do
     for each in $kinds; do
         grep -qE "^$test,.*,$each,0," page/cases.csv || fail "$test is not asked of $each"

@@ -63,6 +63,7 @@ complains "allowed is one whole number" info soup:n=1.5
 complains "n=x is out of range" info soup:n=x
 complains "n= is out of range" info soup:n
 complains "it has none" info one:n=1
+complains "nearest is seed" info slivers:sed=1
 complains "--rays is '0'" check one --rays 0
 complains "--rays is '1e3'" check one --rays 1e3
 complains "--seed is '-1'" check one --seed -1
@@ -83,6 +84,7 @@ for each in $kinds; do
     expect 0 info cubes -a "$each"
     says "build time"
 done
+[ -z "$(sed '1,/^Built-in/d' kinds.txt | grep -oE '^[^ ]+ ' | sort | uniq -d)" ] || fail "two scenes have one name"
 for scene in $(sed '1,/^Built-in/d' kinds.txt | grep -oE '^[a-z]+ ' | tr -d ' '); do
     expect 0 info "$scene" -a linear
     says "primitives in"

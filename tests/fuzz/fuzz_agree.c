@@ -170,7 +170,7 @@ static bool in_order(void *user, const accel_hit *hit)
                                        (hit->geom == o->last.geom && hit->prim <= o->last.prim)))))
         broken("linear: a hit at %a comes after one at %a", hit->t, o->last.t);
     o->last = *hit;
-    return o->count < ALL_HITS;
+    return o->count < KEPT;
 }
 
 /* What the other kinds cannot tell of the judge, as they ask the same code: the first of all hits

@@ -58,7 +58,7 @@ static void prepare(struct job *j)
     accel *judge = build_judge(j);
     struct rng d = rng_from(j->seed, 2);
     for (uint64_t i = 0; i < j->count; i++) {
-        j->rays[i] = j->family->make(&j->scene, judge, &d, i);
+        j->rays[i] = j->family->make(&j->scene.target, judge, &d, i);
         j->answers[i] = copies(j->maker)
                             ? ask_pile(judge, &j->rays[i], copies(j->maker), is_deep(i))
                             : ask(judge, &j->rays[i], is_deep(i));

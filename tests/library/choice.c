@@ -33,7 +33,7 @@ static void expect_same_answers(const struct test_scene *s, const accel *a, cons
 {
     struct rng d = rng_from(test_seed(), 3);
     for (uint64_t i = 0; i < RAYS; i++) {
-        const accel_ray ray = ray_families->make(s, a, &d, i);
+        const accel_ray ray = ray_families->make(&s->target, a, &d, i);
         const struct answer x = ask(a, &ray, true), y = ask(b, &ray, true);
         assert_true(same_answer(&x, &y));
     }
@@ -45,7 +45,7 @@ static void try_pilot(const struct test_scene *s, const accel *linear, const cha
     accel_ray pilot[PILOT];
     struct rng d = rng_from(test_seed(), 5);
     for (uint64_t i = 0; i < PILOT; i++)
-        pilot[i] = ray_family_find(family)->make(s, linear, &d, i);
+        pilot[i] = ray_family_find(family)->make(&s->target, linear, &d, i);
     const accel_hooks hooks = {.pilot = pilot, .pilot_count = PILOT};
     accel *a, *b;
     const accel_info one = build_auto(&a, s, "auto", &hooks);
@@ -64,7 +64,7 @@ static void try_pilot(const struct test_scene *s, const accel *linear, const cha
 static void pilot_decides_no_answer(void **state)
 {
     (void)state;
-    static const char *const names[] = {"soup-20k", "mixed", "nested-spheres", "twins"};
+    static const char *const names[] = {"shards-20k", "mixed", "nested-spheres", "twins"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         struct test_scene s;
         scene_make(&s, scene_maker_find(names[i]), test_seed());
@@ -85,7 +85,7 @@ static void pilot_is_traced(void **state)
 {
     (void)state;
     struct test_scene s;
-    scene_make(&s, scene_maker_find("soup-20k"), test_seed());
+    scene_make(&s, scene_maker_find("shards-20k"), test_seed());
     const double from[3] = {0.0, 1e3, 0.0}, away[3] = {0.0, 1.0, 0.0};
     const accel_ray ray = accel_ray_from(from, away);
     const accel_hooks hooks = {.pilot = &ray, .pilot_count = 1};
@@ -101,7 +101,7 @@ static void few_rays_need_nothing(void **state)
 {
     (void)state;
     struct test_scene s;
-    scene_make(&s, scene_maker_find("soup"), test_seed());
+    scene_make(&s, scene_maker_find("shards"), test_seed());
     accel *a;
     const accel_info info = build_auto(&a, &s, "auto:rays=1", NULL);
     assert_string_equal(info.kind, "linear");

@@ -136,9 +136,15 @@ static double cluster(const accel_scene *scene, struct cluster_rule rule)
     static const accel_hooks hooks;
     accel_error error = {.text = ""};
     accel a = {.memory = {.resize = accel_memory_system}};
-    struct build build = {.a = &a, .hooks = &hooks, .error = &error, .phase = "clusters"};
+    struct build build = {.a = &a,
+                          .memory = &a.memory,
+                          .info = &a.info,
+                          .kind = "hoo",
+                          .hooks = &hooks,
+                          .error = &error,
+                          .phase = "clusters"};
     struct clustering found = {0};
-    assert_true(accel_primitives_copy(&build, scene));
+    assert_true(accel_primitives_copy(&build, &a.prims, scene));
     const size_t before = a.memory.bytes;
     assert_true(accel_cluster_scene(&build, &found, rule, 0.0, 1.0));
     check_whole(&a, &found);

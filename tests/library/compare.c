@@ -33,48 +33,29 @@ uint64_t answer_hash(uint64_t hash, const struct answer *a)
     return hash_bytes(hash, &a->ids, sizeof a->ids);
 }
 
-/* Gathers what is visited, and looks whether it may be. */
-struct gathering {
-    const accel_ray *ray;
-    struct answer *to;
-    bool first;
-    accel_id last; /* id of the last primitive visited */
-};
-
 static bool leaves(const accel_ray *ray, const accel_hit *hit)
 {
     return ray->skip.geom == hit->geom && ray->skip.prim == hit->prim;
 }
 
-static bool gather_hit(void *user, const accel_hit *hit)
+/* Enters the lists. */
+static void hash_lists(const accel_ray *ray, const struct answers *from, struct answer *to)
 {
-    struct gathering *g = user;
-    g->to->left += leaves(g->ray, hit);
-    g->to->all = hash_hit(g->to->all, hit);
-    return ++g->to->all_count < ALL_HITS;
-}
-
-static bool gather_id(void *user, accel_id id)
-{
-    struct gathering *g = user;
-    if (!g->first &&
-        (id.geom < g->last.geom || (id.geom == g->last.geom && id.prim <= g->last.prim)))
-        g->to->illegal = "accel_point: out of order";
-    g->first = false;
-    g->last = id;
-    g->to->ids = hash_bytes(g->to->ids, &id, sizeof id);
-    return ++g->to->id_count < ALL_HITS;
-}
-
-static void ask_closest(const accel *a, const accel_ray *ray, accel_query *q, struct answer *to)
-{
-    accel_hit untouched;
-    memset(&untouched, 0xa5, sizeof untouched);
-    to->closest = untouched;
-    to->hit = accel_closest(a, ray, &to->closest, q);
-    if (!to->hit && memcmp(&to->closest, &untouched, sizeof untouched) != 0)
-        to->illegal = "accel_closest: a miss wrote to *hit";
-    to->left = to->hit && leaves(ray, &to->closest);
+    to->left = 0;
+    to->all = to->ids = HASH_START;
+    to->all_count = from->all_count;
+    to->id_count = from->point_count;
+    for (uint32_t i = 0; i < from->all_count; i++) {
+        to->left += leaves(ray, &from->all[i]);
+        to->all = hash_hit(to->all, &from->all[i]);
+    }
+    for (uint32_t i = 0; i < from->point_count; i++) {
+        const accel_id *id = &from->point[i];
+        if (i > 0 &&
+            (id->geom < id[-1].geom || (id->geom == id[-1].geom && id->prim <= id[-1].prim)))
+            to->illegal = "accel_point: out of order";
+        to->ids = hash_bytes(to->ids, id, sizeof *id);
+    }
 }
 
 /* Whether the header says that a ray is refused. */
@@ -101,22 +82,27 @@ static void check_refused(const accel_ray *ray, const accel_query *q, uint64_t q
 
 struct answer ask(const accel *a, const accel_ray *ray, bool deep)
 {
-    struct answer to = {.all = HASH_START, .ids = HASH_START};
-    struct gathering g = {ray, &to, true, {0, 0}};
+    struct answers all;
     accel_query q = {.user = NULL};
-    ask_closest(a, ray, &q, &to);
-    to.any = accel_any(a, ray, &q);
+    answers_ask(a, ray, &q, &all);
+    struct answer to = {.hit = all.found,
+                        .any = all.any,
+                        .closest = all.closest,
+                        .all = HASH_START,
+                        .ids = HASH_START,
+                        .left = all.found && leaves(ray, &all.closest)};
+    if (!all.untouched)
+        to.illegal = "accel_closest: a miss wrote to *hit";
     if (to.any != to.hit)
         to.illegal = "accel_any and accel_closest disagree";
     check_refused(ray, &q, 2, &to);
     if (deep) {
-        to.left = 0;
-        const bool ended = accel_all(a, ray, gather_hit, &g, &q);
-        if (ended != (to.all_count < ALL_HITS))
+        answers_ask_lists(a, ray, ray->org, &q, &all);
+        hash_lists(ray, &all, &to);
+        if (all.ended != (to.all_count < KEPT))
             to.illegal = "accel_all: wrong return value";
         if ((to.all_count > 0) != to.hit)
             to.illegal = "accel_all and accel_closest disagree";
-        accel_point(a, ray->org, gather_id, &g, &q);
     }
     to.refused = q.refused;
     to.outside = q.outside;
@@ -126,19 +112,20 @@ struct answer ask(const accel *a, const accel_ray *ray, bool deep)
 struct answer ask_pile(const accel *one, const accel_ray *ray, uint32_t copies, bool deep)
 {
     struct answer to = ask(one, ray, deep);
-    struct gathering g = {ray, &to, true, {0, 0}};
-    accel_hit hit = to.closest;
+    struct answers pile;
+    const uint32_t kept = copies < KEPT ? copies : KEPT;
     if (to.all_count > 1)
         to.illegal = "the primitive of a pile is hit twice";
-    const bool holds = to.id_count > 0;
-    to.all = to.ids = HASH_START;
-    to.all_count = to.id_count = 0;
     if (!deep)
         return to;
-    for (hit.prim = 0; to.hit && hit.prim < copies && gather_hit(&g, &hit); hit.prim++)
-        ;
-    for (accel_id id = {0, 0}; holds && id.prim < copies && gather_id(&g, id); id.prim++)
-        ;
+    pile.all_count = to.hit ? kept : 0;
+    pile.point_count = to.id_count > 0 ? kept : 0;
+    for (uint32_t i = 0; i < kept; i++) {
+        pile.all[i] = to.closest;
+        pile.all[i].prim = i;
+        pile.point[i] = (accel_id){0, i};
+    }
+    hash_lists(ray, &pile, &to);
     return to;
 }
 

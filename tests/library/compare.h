@@ -1,27 +1,26 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * All that a structure answers to one ray, to be compared bit for bit; the list of configs that
- * are tested; and the file that a failure leaves, which `replay` runs again.
+ * All that a structure answers to one ray (answers.h) as hashes, which may be stored, and whether
+ * it may be answered; the list of configs that are tested; and the file that a failure leaves,
+ * which `replay` runs again.
  */
 #ifndef TESTS_COMPARE_H
 #define TESTS_COMPARE_H
 
+#include "answers.h"
 #include "catalogue.h"
 
 struct answer {
     bool hit, any;       /* of accel_closest, accel_any */
     accel_hit closest;   /* if hit */
     uint64_t all, ids;   /* hash of what accel_all and accel_point visited, in order */
-    uint32_t all_count;  /* how many hits; the visitor stops at ALL_HITS */
+    uint32_t all_count;  /* how many hits; the visitor stops at KEPT */
     uint32_t id_count;   /* how many primitives hold the ray's origin; the same */
     uint32_t left;       /* how many hits of the primitive that the ray leaves */
     uint64_t refused;    /* how many of the queries were refused */
     uint64_t outside;    /* raw hits before their box, where kinds need not agree */
     const char *illegal; /* NULL, or what no structure may answer to this ray */
 };
-
-/* Most hits that are looked at: a pile of a million is not visited to its end. */
-enum { ALL_HITS = 300 };
 
 /* Asks for the nearest hit and for any; with `deep` also for all and for the origin's boxes. */
 struct answer ask(const accel *a, const accel_ray *ray, bool deep);

@@ -270,7 +270,7 @@ static uint64_t hash_answers(const accel *a)
     struct rng d = rng_from(7, 7);
     uint64_t hash = HASH_START;
     for (uint64_t i = 0; i < 200; i++) {
-        const accel_ray ray = ray_families->make(&scene, a, &d, i);
+        const accel_ray ray = ray_families->make(&scene.target, a, &d, i);
         const struct answer answer = ask(a, &ray, true);
         hash = answer_hash(hash, &answer);
     }

@@ -159,7 +159,7 @@ static void make_rays(accel_ray *rays, const accel *a, const struct test_scene *
     struct rng d = rng_from(test_seed(), 3);
     const struct ray_family *f = ray_families;
     for (uint64_t i = 0; i < RAYS; i++) {
-        rays[i] = f->make(s, a, &d, i);
+        rays[i] = f->make(&s->target, a, &d, i);
         f = f[1].name ? f + 1 : ray_families;
     }
 }
@@ -287,7 +287,7 @@ static void test_damage(void **state)
 {
     (void)state;
     static const char *const scenes[] = {
-        "mixed", "soup",         "degenerate",   "lattice",       "series", "nested-spheres",
+        "mixed", "shards",       "degenerate",   "lattice",       "series", "nested-spheres",
         "twins", "one-triangle", "scale-1e-310", "huge-and-tiny", "stack"};
     const uint64_t wounds = scaled_count(180);
     struct tested *list;

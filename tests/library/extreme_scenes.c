@@ -146,14 +146,14 @@ static void test_depth(void **state)
 {
     (void)state;
     static const char *const scenes[] = {"nested-spheres", "nested-boxes", "nested-triangles",
-                                         "series",         "sizes",        "stadium"};
+                                         "series",         "sizes",        "speck"};
     struct tested *list;
     const size_t count = tested_configs(&list);
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
         struct test_scene s;
         scene_make(&s, scene_maker_find(scenes[i]), test_seed());
         for (size_t j = 0; j < count; j++) {
-            if (strcmp(scenes[i], "stadium") == 0 && !list[j].standard)
+            if (strcmp(scenes[i], "speck") == 0 && !list[j].standard)
                 continue;
             accel_info info;
             accel *a = must_build(&s, list[j].config);
@@ -178,7 +178,7 @@ static double work(const accel *a, const struct test_scene *s, const struct ray_
     accel_query q = {.user = NULL};
     accel_hit hit;
     for (uint64_t i = 0; i < count; i++) {
-        const accel_ray ray = family->make(s, a, &d, i);
+        const accel_ray ray = family->make(&s->target, a, &d, i);
         accel_closest(a, &ray, &hit, &q);
     }
     return (double)(q.nodes + q.tests) / (double)count;
@@ -192,7 +192,7 @@ static void test_stadium(void **state)
     struct test_scene s;
     struct tested *list;
     const size_t configs = tested_configs(&list);
-    scene_make(&s, scene_maker_find("stadium"), test_seed());
+    scene_make(&s, scene_maker_find("speck"), test_seed());
     accel *bvh = must_build(&s, "bvh");
     const double best = work(bvh, &s, ray_families, 2000);
     for (size_t i = 0; i < configs; i++) {

@@ -67,7 +67,7 @@ static uint64_t hash_answers(const accel *a, const struct test_scene *s)
     struct rng d = rng_from(5, 5);
     uint64_t hash = HASH_START;
     for (uint64_t i = 0; i < 50; i++) {
-        const accel_ray ray = ray_families->make(s, a, &d, i);
+        const accel_ray ray = ray_families->make(&s->target, a, &d, i);
         const struct answer answer = ask(a, &ray, true);
         hash = answer_hash(hash, &answer);
     }
@@ -196,7 +196,7 @@ static void grow_failing_each(const struct test_scene *s, const char *config)
 static void test_memory_of_rays(void **state)
 {
     (void)state;
-    static const char *const scenes[] = {"mixed", "lattice", "soup", "two-objects"};
+    static const char *const scenes[] = {"mixed", "lattice", "shards", "two-objects"};
     static const char *const configs[] = {"hoo:lazy=on", "hoo:lazy=on,part=1",
                                           "hoo:lazy=on,part=30", "hoo:lazy=on,connectivity=0"};
     if (!kind_is_there("hoo"))
@@ -301,7 +301,7 @@ static void cancel_each(const struct test_scene *s, const char *config)
 static void test_cancel(void **state)
 {
     (void)state;
-    static const char *const scenes[] = {"soup-100k", "copies-65536"};
+    static const char *const scenes[] = {"shards-100k", "copies-65536"};
     size_t count;
     const accel_kind_info *const *kind = accel_kinds(&count);
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {

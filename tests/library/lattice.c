@@ -9,7 +9,7 @@
 #include "lattice.h"
 
 struct expected {
-    struct crossing list[ALL_HITS];
+    struct crossing list[KEPT];
     uint32_t count, next;
     bool wrong;
 };
@@ -18,7 +18,7 @@ static bool check_hit(void *user, const accel_hit *h)
 {
     struct expected *e = user;
     e->wrong |= e->next >= e->count || !crossing_is(&e->list[e->next], h);
-    return ++e->next < ALL_HITS && !e->wrong;
+    return ++e->next < KEPT && !e->wrong;
 }
 
 static void check_ray(const accel *a, const char *kind, const accel_ray *ray, struct expected *e)
@@ -52,7 +52,7 @@ static void try_scene(const char *name, make_line *make, uint64_t count)
         accel_ray ray = make(&s, &d, &l);
         const bool backwards = rng_chance(&d, 0.3);
         ray.tmin = backwards ? -(double)INFINITY : 0.0;
-        e.count = lattice_crossings(&s, &l, backwards, e.list, ALL_HITS);
+        e.count = lattice_crossings(&s, &l, backwards, e.list, KEPT);
         for (size_t k = 0; k < all.count; k++)
             check_ray(all.a[k], all.of[k].config, &ray, &e);
         hits += e.count;

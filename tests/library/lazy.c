@@ -31,7 +31,7 @@ static void must_be_valid(const accel *a, const char *config)
 static void shoot(const struct test_scene *s, const accel *a, uint64_t i)
 {
     struct rng d = rng_from(test_seed(), i);
-    const accel_ray ray = ray_families->make(s, a, &d, i);
+    const accel_ray ray = ray_families->make(&s->target, a, &d, i);
     ask(a, &ray, true);
 }
 
@@ -81,8 +81,9 @@ static void test_becomes_eager(void **state)
     (void)state;
     if (!kind_is_there("hoo"))
         skip();
-    static const char *const scenes[] = {"soup",  "mixed",      "lattice", "ball-mesh",   "slivers",
-                                         "twins", "copies-512", "terrain", "scale-1e-300"};
+    static const char *const scenes[] = {"shards",     "mixed",   "lattice",
+                                         "ball-mesh",  "slivers", "twins",
+                                         "copies-512", "terrain", "scale-1e-300"};
     static const char *const rules[] = {"", "leaf=3", "depth=5", "leaf=2,depth=7",
                                         "connectivity=0"};
     static const char *const parts[] = {"1", "30", "1000000000"};
@@ -104,7 +105,7 @@ static void test_modes(void **state)
     (void)state;
     if (!kind_is_there("hoo"))
         skip();
-    static const char *const scenes[] = {"soup", "scale-1e-310"};
+    static const char *const scenes[] = {"shards", "scale-1e-310"};
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
         struct test_scene s;
         scene_make(&s, scene_maker_find(scenes[i]), test_seed());
@@ -137,7 +138,7 @@ static void test_order(void **state)
     static const char *const configs[] = {"hoo:lazy=on", "hoo:lazy=on,part=1",
                                           "hoo:lazy=on,part=20"};
     struct test_scene s;
-    scene_make(&s, scene_maker_find("soup-20k"), test_seed());
+    scene_make(&s, scene_maker_find("shards-20k"), test_seed());
     for (size_t i = 0; i < sizeof configs / sizeof *configs; i++) {
         const accel_info first = shoot_in_order(&s, configs[i], 1);
         const accel_info other = shoot_in_order(&s, configs[i], 171);
@@ -252,7 +253,7 @@ static void test_parts(void **state)
     if (!kind_is_there("hoo"))
         skip();
     struct test_scene s;
-    scene_make(&s, scene_maker_find("soup-20k"), test_seed());
+    scene_make(&s, scene_maker_find("shards-20k"), test_seed());
     accel *a = must_build(&s, "hoo:lazy=on,part=100");
     uint64_t before = 20000, bytes = 0;
     for (uint64_t i = 0; i < 40; i++) {

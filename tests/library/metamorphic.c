@@ -14,7 +14,7 @@ enum { RAYS = 300 };
 
 /* All hits of one ray. */
 struct list {
-    accel_hit at[ALL_HITS];
+    accel_hit at[KEPT];
     uint32_t count;
 };
 
@@ -22,7 +22,7 @@ static bool store(void *user, const accel_hit *hit)
 {
     struct list *l = user;
     l->at[l->count++] = *hit;
-    return l->count < ALL_HITS;
+    return l->count < KEPT;
 }
 
 static void all_hits(const accel *a, const accel_ray *ray, struct list *l)
@@ -107,7 +107,7 @@ static void change_scene(struct changed *to, const struct test_scene *from, cons
         }
     }
     if (c->more)
-        make_soup(&to->scene, &d, 100);
+        make_shards(&to->scene, &d, 100);
     scene_close(&to->scene);
 }
 
@@ -207,7 +207,7 @@ static void try_kind(const char *kind, const char *name, const struct test_scene
     uint64_t hits = 0;
     for (uint64_t i = 0; i < rays; i++) {
         struct list expected, found;
-        const accel_ray ray = ray_families->make(s, a, &d, i);
+        const accel_ray ray = ray_families->make(&s->target, a, &d, i);
         const accel_ray moved = change_ray(c, &ray);
         all_hits(a, &ray, &expected);
         all_hits(b, &moved, &found);
@@ -385,7 +385,7 @@ static void check_ends(const accel *a, const char *config, const accel_ray *ray,
 static void test_ends(void **state)
 {
     (void)state;
-    static const char *const scenes[] = {"soup", "twins", "lattice", "slivers"};
+    static const char *const scenes[] = {"shards", "twins", "lattice", "slivers"};
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
         struct test_scene s;
         scene_make(&s, scene_maker_find(scenes[i]), test_seed());
@@ -394,7 +394,7 @@ static void test_ends(void **state)
         uint64_t hits = 0;
         const uint64_t count = scaled_count(5000);
         for (uint64_t r = 0; r < count; r++) {
-            const accel_ray ray = ray_families->make(&s, all.a[0], &d, r);
+            const accel_ray ray = ray_families->make(&s.target, all.a[0], &d, r);
             bool hit = false;
             for (size_t k = 1; k < all.count; k++)
                 check_ends(all.a[k], all.of[k].config, &ray, &hit);
@@ -419,10 +419,10 @@ static void test_cuts(void **state)
             accel *a = must_build(&s, kind[k]->name);
             struct rng d = rng_from(test_seed(), 53);
             for (uint64_t r = 0; r < RAYS; r++) {
-                const accel_ray ray = ray_families->make(&s, a, &d, r);
+                const accel_ray ray = ray_families->make(&s.target, a, &d, r);
                 struct list all;
                 all_hits(a, &ray, &all);
-                if (all.count == 0 || all.count == ALL_HITS)
+                if (all.count == 0 || all.count == KEPT)
                     continue;
                 check_next(a, kind[k]->name, &ray, &all);
                 check_split(a, kind[k]->name, &ray, &all);

@@ -31,7 +31,7 @@ static double try_family(const char *family, const char *name, uint64_t count, b
     struct rng d = rng_from(test_seed(), 21);
     uint64_t undecided = 0, hits = 0, wrong = 0;
     for (uint64_t i = 0; i < count; i++) {
-        const accel_ray ray = rays->make(&s, all.a[0], &d, generic ? 0 : i);
+        const accel_ray ray = rays->make(&s.target, all.a[0], &d, generic ? 0 : i);
         const struct judgement j = oracle_judge(&s, &ray);
         undecided += j.verdict == UNDECIDED;
         hits += j.verdict == HIT;
@@ -58,14 +58,14 @@ static double try_scene(const char *name, uint64_t count, bool generic)
 }
 
 /* Scenes of triangles and spheres alone. */
-static const char *const scenes[] = {"soup",      "sizes",     "slivers",        "scale-1e-150",
+static const char *const scenes[] = {"shards",    "sizes",     "slivers",        "scale-1e-150",
                                      "scale-1e9", "shift-1e6", "nested-spheres", "terrain",
                                      "ball-mesh", "scale-1e38"};
 
 static void test_generic(void **state)
 {
     (void)state;
-    assert_true(try_scene("soup", scaled_count(5000), true) < 0.01);
+    assert_true(try_scene("shards", scaled_count(5000), true) < 0.01);
     assert_true(try_scene("terrain", scaled_count(300), true) < 0.01);
     assert_true(try_scene("nested-spheres", scaled_count(300), true) < 0.01);
 }
@@ -99,7 +99,7 @@ static void test_misses(void **state)
         uint64_t quick = 0, pairs = 0;
         const struct part *p = s.part;
         for (uint64_t r = 0; r < scaled_count(120) && p->type == ACCEL_TRIANGLES; r++) {
-            const accel_ray ray = ray_families->make(&s, linear, &d, r);
+            const accel_ray ray = ray_families->make(&s.target, linear, &d, r);
             for (uint32_t k = (uint32_t)(r % 4); k < p->count; k += 4, pairs++) {
                 if (exact_misses(&ray, p->data + 9 * (size_t)k)) {
                     quick++;

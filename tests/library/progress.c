@@ -155,7 +155,7 @@ static void make_crowd(struct test_scene *s, uint32_t balls)
 static void test_catalogue(void **state)
 {
     (void)state;
-    static const char *const scenes[] = {"soup-100k", "copies-65536", "split-65536", "mixed"};
+    static const char *const scenes[] = {"shards-100k", "copies-65536", "split-65536", "mixed"};
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
         struct test_scene s;
         scene_make(&s, scene_maker_find(scenes[i]), test_seed());

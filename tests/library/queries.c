@@ -83,7 +83,7 @@ static void try_special(const accel *a, const struct test_scene *s)
     uint64_t bad = 0;
     const uint64_t count = 5000;
     for (uint64_t i = 0; i < count; i++) {
-        const accel_ray ray = ray_family_find("special")->make(s, a, &d, i);
+        const accel_ray ray = ray_family_find("special")->make(&s->target, a, &d, i);
         accel_query q = {.user = NULL};
         accel_hit hit;
         bad += !legal(&ray);
@@ -108,7 +108,7 @@ static uint64_t work(const accel *a, const struct test_scene *s, const struct ra
     accel_query q = {.user = NULL};
     accel_hit hit;
     for (uint64_t i = 0; i < 9826; i++) {
-        const accel_ray ray = family->make(s, a, &d, i);
+        const accel_ray ray = family->make(&s->target, a, &d, i);
         accel_closest(a, &ray, &hit, &q);
     }
     return q.nodes + q.tests;
@@ -129,7 +129,7 @@ static void try_work(const accel *a, const struct test_scene *s)
 static void test_work(void **state)
 {
     (void)state;
-    for_all("soup", try_work);
+    for_all("shards", try_work);
 }
 
 static void try_ends(const accel *a, const struct test_scene *s)
@@ -138,7 +138,7 @@ static void try_ends(const accel *a, const struct test_scene *s)
     struct rng d = rng_from(2, 2);
     uint32_t hits = 0;
     for (uint64_t i = 0; i < 500; i++) {
-        accel_ray ray = ray_families->make(s, a, &d, i);
+        accel_ray ray = ray_families->make(&s->target, a, &d, i);
         accel_hit hit, again;
         if (!accel_closest(a, &ray, &hit, NULL))
             continue;
@@ -199,7 +199,7 @@ static void test_behind(void **state)
 /* ----------------------------------------------------------- skip, visitors ---- */
 
 struct hits {
-    accel_hit at[ALL_HITS];
+    accel_hit at[KEPT];
     uint32_t count, most;
 };
 
@@ -220,8 +220,8 @@ static void try_skip(const accel *a, const struct test_scene *s)
 {
     struct rng d = rng_from(3, 3);
     for (uint64_t i = 0; i < 200; i++) {
-        accel_ray ray = ray_families->make(s, a, &d, i);
-        struct hits with = {.most = ALL_HITS}, without = {.most = ALL_HITS};
+        accel_ray ray = ray_families->make(&s->target, a, &d, i);
+        struct hits with = {.most = KEPT}, without = {.most = KEPT};
         accel_all(a, &ray, store, &with, NULL);
         if (with.count == 0)
             continue;
@@ -249,7 +249,7 @@ static void try_skip_none(const accel *a, const struct test_scene *s)
         {ACCEL_NONE, 0}, {0, ACCEL_NONE}, {ACCEL_NONE, ACCEL_NONE}, {7, 0}, {0, 1000000}};
     struct rng d = rng_from(4, 4);
     for (uint64_t i = 0; i < 60; i++) {
-        accel_ray ray = ray_families->make(s, a, &d, i);
+        accel_ray ray = ray_families->make(&s->target, a, &d, i);
         const struct answer plain = ask(a, &ray, true);
         for (size_t j = 0; j < sizeof odd / sizeof *odd; j++) {
             ray.skip = odd[j];
@@ -270,8 +270,8 @@ static void try_stop(const accel *a, const struct test_scene *s)
     struct rng d = rng_from(5, 5);
     uint32_t longest = 0;
     for (uint64_t i = 0; i < 12; i++) {
-        const accel_ray ray = ray_families->make(s, a, &d, i);
-        struct hits all = {.most = ALL_HITS};
+        const accel_ray ray = ray_families->make(&s->target, a, &d, i);
+        struct hits all = {.most = KEPT};
         accel_all(a, &ray, store, &all, NULL);
         longest = all.count > longest ? all.count : longest;
         for (uint32_t j = 1; j < all.count; j++)
@@ -295,7 +295,7 @@ static void test_stop(void **state)
 }
 
 struct ids {
-    accel_id at[ALL_HITS];
+    accel_id at[KEPT];
     uint32_t count;
 };
 
@@ -303,7 +303,7 @@ static bool store_id(void *user, accel_id id)
 {
     struct ids *h = user;
     h->at[h->count++] = id;
-    return h->count < ALL_HITS;
+    return h->count < KEPT;
 }
 
 static bool holds(const accel_box *b, const double p[3])
@@ -480,14 +480,14 @@ static void test_lies(void **state)
         accel *a = build_script(list[i].config, script, ACCEL_ORDER_KEY);
         assert_true(accel_closest(a, &ray, &hit, NULL));
         assert_true(hit.prim == 0 && hit.t == 1.5);
-        struct hits all = {.most = ALL_HITS};
+        struct hits all = {.most = KEPT};
         accel_all(a, &ray, store, &all, NULL);
         assert_int_equal(all.count, 2);
         assert_true(all.at[1].prim == 1 && all.at[1].t == 0.5);
         accel_free(a);
         a = build_script(list[i].config, script, ACCEL_ORDER_RAW);
         accel_query q = {.user = NULL};
-        struct hits raw = {.most = ALL_HITS};
+        struct hits raw = {.most = KEPT};
         accel_all(a, &ray, store, &raw, &q);
         assert_int_equal(q.outside, 1);
         assert_int_equal(raw.count, 2);
@@ -568,7 +568,7 @@ static void test_nested(void **state)
 static void try_counters(const accel *a, const struct test_scene *s)
 {
     struct rng d = rng_from(8, 8);
-    const accel_ray ray = ray_families->make(s, a, &d, 1);
+    const accel_ray ray = ray_families->make(&s->target, a, &d, 1);
     accel_query once = {.user = NULL}, twice = {.nodes = 5, .tests = 6, .refused = 7};
     accel_hit hit;
     accel_closest(a, &ray, &hit, &once);
@@ -583,7 +583,7 @@ static void try_counters(const accel *a, const struct test_scene *s)
 static void test_counters(void **state)
 {
     (void)state;
-    for_all("soup", try_counters);
+    for_all("shards", try_counters);
 }
 
 int main(void)

@@ -88,20 +88,20 @@ static void check_integers(const accel *a, const char *config, const struct test
                            const void *expected)
 {
     uint32_t hits = 0;
-    for (uint32_t i = 0; i < s->given_count; i++) {
+    for (uint32_t i = 0; i < s->target.given_count; i++) {
         struct crossing list[64];
         struct hits found = {.count = 0};
-        const struct line l = lattice_line_of(&s->given[i]);
+        const struct line l = lattice_line_of(&s->target.given[i]);
         const uint32_t count = lattice_crossings(s, &l, false, list, 64);
-        accel_all(a, &s->given[i], store, &found, NULL);
+        accel_all(a, &s->target.given[i], store, &found, NULL);
         bool right = found.count == count;
         for (uint32_t j = 0; right && j < count; j++)
             right = crossing_is(&list[j], &found.at[j]);
         if (!right)
-            complain(config, expected, &s->given[i]);
+            complain(config, expected, &s->target.given[i]);
         hits += count;
     }
-    assert_true(hits > s->given_count / 2);
+    assert_true(hits > s->target.given_count / 2);
 }
 
 static void test_integers(void **state)
@@ -117,19 +117,19 @@ static void check_decided(const accel *a, const char *config, const struct test_
                           const void *expected)
 {
     uint32_t hits = 0;
-    for (uint32_t i = 0; i < s->given_count; i++) {
+    for (uint32_t i = 0; i < s->target.given_count; i++) {
         accel_hit h;
-        const struct judgement j = oracle_judge(s, &s->given[i]);
-        const bool hit = accel_closest(a, &s->given[i], &h, NULL);
+        const struct judgement j = oracle_judge(s, &s->target.given[i]);
+        const bool hit = accel_closest(a, &s->target.given[i], &h, NULL);
         assert_int_not_equal(j.verdict, UNDECIDED);
         if (!oracle_agrees(&j, hit, &h))
-            complain(config, expected, &s->given[i]);
+            complain(config, expected, &s->target.given[i]);
         hits += hit;
     }
     if (strcmp(config, "linear") == 0)
         print_message("  %-12s %u rays, %u hits, nothing undecided\n", (const char *)expected,
-                      s->given_count, hits);
-    assert_true(hits > s->given_count / 50);
+                      s->target.given_count, hits);
+    assert_true(hits > s->target.given_count / 50);
 }
 
 static void test_decided(void **state)
@@ -151,7 +151,7 @@ static void test_within_box(void **state)
     struct rng d = rng_from(test_seed(), 81);
     uint64_t hits = 0;
     for (uint64_t i = 0; i < scaled_count(20000); i++) {
-        const accel_ray ray = ray_families->make(&s, a, &d, i % 2 ? 5 : 2);
+        const accel_ray ray = ray_families->make(&s.target, a, &d, i % 2 ? 5 : 2);
         accel_hit hit;
         accel_box box;
         if (!accel_closest(a, &ray, &hit, NULL))

@@ -240,7 +240,7 @@ static uint64_t hash_answers(const accel *a, const struct test_scene *s)
     struct rng d = rng_from(9, 9);
     uint64_t hash = HASH_START;
     for (uint64_t i = 0; i < 40; i++) {
-        const accel_ray ray = ray_families->make(s, a, &d, i);
+        const accel_ray ray = ray_families->make(&s->target, a, &d, i);
         const struct answer answer = ask(a, &ray, true);
         hash = answer_hash(hash, &answer);
     }
@@ -291,7 +291,7 @@ static void build_again(const struct test_scene *s, const char *name, const char
 static void test_structures(void **state)
 {
     (void)state;
-    static const char *const scenes[] = {"soup",   "mixed",        "degenerate", "copies-512",
+    static const char *const scenes[] = {"shards", "mixed",        "degenerate", "copies-512",
                                          "series", "lattice",      "slivers",    "scale-1e-310",
                                          "stack",  "nested-boxes", "split-64",   "two-triangles",
                                          "fan",    "scale-1e300",  "empty"};
@@ -318,10 +318,10 @@ static void test_small_scenes(void **state)
         struct test_scene s;
         struct rng d = rng_from(test_seed(), i);
         scene_open(&s);
-        make_soup(&s, &d, 1 + rng_below(&d, 60));
+        make_shards(&s, &d, 1 + rng_below(&d, 60));
         scene_close(&s);
         for (size_t k = 0; k < kinds; k++)
-            build_again(&s, "soup", kind[k]->name, i + k);
+            build_again(&s, "shards", kind[k]->name, i + k);
         scene_free(&s);
     }
 }

@@ -19,14 +19,14 @@ static void leave(const struct mode *m)
         fail_msg("the floating-point environment '%s' was not kept", m->name);
 }
 
-struct rays {
+struct shots {
     uint32_t count;
     accel_ray *ray;
     struct answer *answer;
 };
 
 /* Shoots in the mode; compares with what linear said in it, or notes that. */
-static uint32_t shoot(const accel *a, const struct mode *m, struct rays *r, bool judge,
+static uint32_t shoot(const accel *a, const struct mode *m, struct shots *r, bool judge,
                       uint32_t *first)
 {
     uint32_t wrong = 0;
@@ -62,7 +62,7 @@ static accel_ray huge_ray(const struct test_scene *s, struct rng *d)
     const uint32_t axis = rng_below(d, 3);
     const double side = rng_chance(d, 0.5) ? 1 : -1;
     for (uint32_t k = 0; k < 3; k++) {
-        org[k] = s->box.lo[k] + rng_unit(d) * (s->box.hi[k] - s->box.lo[k]);
+        org[k] = s->target.box.lo[k] + rng_unit(d) * (s->target.box.hi[k] - s->target.box.lo[k]);
         dir[k] = rng_chance(d, 0.5) ? 0.0 : rng_power(d, -3, 3);
     }
     org[axis] = side * (rng_chance(d, 0.7) ? DBL_MAX : rng_power(d, 1020, 1024));
@@ -77,13 +77,14 @@ static accel_ray huge_ray(const struct test_scene *s, struct rng *d)
 static void agree_in(const struct test_scene *s, const char *name, const struct mode *built,
                      const struct mode *walked, const struct tested *list, size_t count)
 {
-    struct rays r = {(uint32_t)scaled_count(120), NULL, NULL};
+    struct shots r = {(uint32_t)scaled_count(120), NULL, NULL};
     r.ray = must_resize(NULL, r.count * sizeof *r.ray);
     r.answer = must_resize(NULL, r.count * sizeof *r.answer);
     struct rng d = rng_from(test_seed(), 11);
     accel *judge = build_in(built, s, "linear");
     for (uint32_t i = 0; i < r.count; i++)
-        r.ray[i] = i % 8 == 6 ? huge_ray(s, &d) : ray_families[i % 4 == 3].make(s, judge, &d, i);
+        r.ray[i] =
+            i % 8 == 6 ? huge_ray(s, &d) : ray_families[i % 4 == 3].make(&s->target, judge, &d, i);
     uint32_t first = 0;
     shoot(judge, walked, &r, true, &first);
     static size_t turn = 0;

@@ -332,7 +332,7 @@ static uint64_t hash_layout(bool is_float, size_t stride, struct test_scene *s)
     uint64_t hash = HASH_START, hits = 0;
     struct rng d = rng_from(3, 3);
     for (uint64_t i = 0; i < 1000; i++) {
-        const accel_ray ray = ray_families->make(s, a, &d, i);
+        const accel_ray ray = ray_families->make(&s->target, a, &d, i);
         const struct answer answer = ask(a, &ray, true);
         hash = answer_hash(hash, &answer);
         hits += answer.hit;
@@ -348,7 +348,7 @@ static void test_layouts(void **state)
     struct test_scene s;
     struct rng d = rng_from(1, 1);
     scene_open(&s);
-    make_soup(&s, &d, SHAPES);
+    make_shards(&s, &d, SHAPES);
     for (size_t i = 0; i < 9 * SHAPES; i++)
         s.part[0].data[i] = (double)(float)s.part[0].data[i];
     scene_close(&s);

@@ -27,7 +27,7 @@ static uint64_t hash_answers(const accel *a, const struct test_scene *s)
     struct rng d = rng_from(9, 9);
     uint64_t hash = HASH_START;
     for (uint64_t i = 0; i < scaled_count(150); i++) {
-        const accel_ray ray = ray_families->make(s, a, &d, i);
+        const accel_ray ray = ray_families->make(&s->target, a, &d, i);
         const struct answer answer = ask(a, &ray, true);
         hash = answer_hash(hash, &answer);
     }
@@ -218,7 +218,7 @@ static void grow_together(const struct test_scene *s, const char *config, const 
 static void test_grow_together(void **state)
 {
     (void)state;
-    static const char *const scenes[] = {"soup", "mixed", "terrain"};
+    static const char *const scenes[] = {"shards", "mixed", "terrain"};
     static const char *const configs[] = {"hoo:lazy=on", "hoo:lazy=on,part=1",
                                           "hoo:lazy=on,part=50", "hoo:lazy=on,connectivity=0"};
     if (!kind_is_there("hoo"))
@@ -231,7 +231,7 @@ static void test_grow_together(void **state)
         struct rng d = rng_from(test_seed(), 3);
         uint64_t expected = 0;
         for (uint64_t r = 0; r < crowd_rays(); r++) {
-            rays[r] = ray_families->make(&s, judge, &d, r);
+            rays[r] = ray_families->make(&s.target, judge, &d, r);
             const struct answer answer = ask(judge, &rays[r], true);
             expected += answer_hash(HASH_START, &answer);
         }
@@ -290,7 +290,7 @@ static uint64_t hash_work(const accel *a, const struct test_scene *s)
     struct rng d = rng_from(9, 9);
     uint64_t hash = HASH_START;
     for (uint64_t i = 0; i < scaled_count(2000); i++) {
-        const accel_ray ray = ray_families->make(s, a, &d, i);
+        const accel_ray ray = ray_families->make(&s->target, a, &d, i);
         accel_query query = {0};
         accel_hit hit = {.prim = 0};
         accel_closest(a, &ray, &hit, &query);
@@ -305,7 +305,7 @@ static void test_team(void **state)
     (void)state;
     static const char *const configs[] = {"bvh", "octree", "hoo", "bvh:isa=portable"};
     struct test_scene s;
-    scene_make(&s, scene_maker_find("soup-100k"), test_seed());
+    scene_make(&s, scene_maker_find("shards-100k"), test_seed());
     for (size_t i = 0; i < sizeof configs / sizeof *configs; i++) {
         char kind[20];
         uint64_t expected = 0;
@@ -337,7 +337,7 @@ static void test_team_stops(void **state)
 {
     (void)state;
     struct test_scene s;
-    scene_make(&s, scene_maker_find("soup-100k"), test_seed());
+    scene_make(&s, scene_maker_find("shards-100k"), test_seed());
     for (int calls = 1; calls < 6 && kind_is_there("bvh"); calls++) {
         int left = calls;
         const accel_hooks hooks = {.user = &left, .progress = stop_in_tree, .threads = 4};

@@ -6,7 +6,7 @@
  * that a wide bound cannot hide a miss.
  */
 #include "photons/photons.h"
-#include "scenes/plates.h"
+#include "photons/plates.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

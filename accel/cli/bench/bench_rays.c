@@ -7,10 +7,10 @@
  */
 #include "bench.h"
 
-#include "scenes/camera.h"
+#include "camera.h"
 #include "photons/photons_surface.h"
 #include "photons/photons_vector.h"
-#include "tool/random.h"
+#include "random.h"
 
 #include <stdlib.h>
 

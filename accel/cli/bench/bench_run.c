@@ -7,7 +7,7 @@
  * on all of them.
  */
 #include "bench.h"
-#include "scenes/judge.h"
+#include "answers.h"
 #include "tool/machine.h"
 #include "tool/quantile.h"
 

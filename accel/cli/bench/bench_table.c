@@ -39,7 +39,7 @@ static void print_csv_head(FILE *csv)
 {
     print_origin(csv);
     fprintf(csv, "scene,contender,rays,count,build_seconds,bytes,nodes,tests,ns_quartile1,"
-                 "ns_median,ns_quartile3,other_answers\n");
+                 "ns_median,ns_quartile3,other_answers,primitives,triangles\n");
 }
 
 /* ----------------------------------------------------------------------- table ---- */
@@ -81,6 +81,17 @@ static void print_table(const struct bench *b)
     }
 }
 
+static uint64_t triangles_of(const accel_scene *scene)
+{
+    uint64_t sum = 0;
+    for (uint32_t g = 0; g < scene->count; g++) {
+        sum += scene->geometries[g].type == ACCEL_TRIANGLES
+                   ? geometry_primitives(&scene->geometries[g])
+                   : 0;
+    }
+    return sum;
+}
+
 static void print_csv(const struct bench *b, FILE *csv)
 {
     for (size_t c = 0; c < b->count; c++) {
@@ -89,10 +100,13 @@ static void print_csv(const struct bench *b, FILE *csv)
             if (b->sets[s].count == 0) {
                 continue;
             }
-            fprintf(csv, "\"%s\",\"%s\",%s,%zu,%.6f,%.0f,%.3f,%.3f,%.3f,%.3f,%.3f,%zu\n",
+            fprintf(csv,
+                    "\"%s\",\"%s\",%s,%zu,%.6f,%.0f,%.3f,%.3f,%.3f,%.3f,%.3f,%zu,%" PRIu64
+                    ",%" PRIu64 "\n",
                     b->scene_name, x->name, b->sets[s].name, b->sets[s].count, x->build_seconds,
                     x->bytes, x->nodes[s], x->tests[s], bench_ns(b, c, s, 0.25),
-                    bench_ns(b, c, s, 0.5), bench_ns(b, c, s, 0.75), x->wrong[s]);
+                    bench_ns(b, c, s, 0.5), bench_ns(b, c, s, 0.75), x->wrong[s],
+                    scene_primitives(&b->loaded.scene), triangles_of(&b->loaded.scene));
         }
     }
 }

@@ -5,8 +5,8 @@
 #ifndef ACCEL_CLI_CHECK_H
 #define ACCEL_CLI_CHECK_H
 
-#include "scenes/judge.h"
-#include "scenes/rays.h"
+#include "answers.h"
+#include "rays.h"
 #include "structure.h"
 
 /* One structure under check. */
@@ -17,6 +17,7 @@ struct suspect {
     uint64_t hits;   /* rays that hit */
     uint64_t family_hits[FAMILIES];
     uint64_t refused;     /* rays that were not valid */
+    uint64_t outside;     /* rays that met a raw hit before its object's box */
     uint64_t mismatches;  /* rays with any difference */
     uint64_t by_query[4]; /* of them by accel_closest, accel_any, accel_all, accel_point */
     uint64_t first;       /* the lowest ray with a difference; UINT64_MAX for none */
@@ -42,6 +43,12 @@ enum { LISTS_EVERY = 16 };
 
 /* Question number `index`. Lists need the closest hit of some structure for their point. */
 struct question check_question(const struct check *check, uint64_t index);
+
+/* Asks a structure, or linear. */
+void check_ask(const accel *a, const struct question *question, accel_query *query,
+               struct answers *answers);
+void check_ask_judge(const struct check *check, const struct question *question, accel_query *query,
+                     struct answers *answers);
 
 /* How many of the first `count` rays are of a family. */
 uint64_t check_family_rays(uint64_t count, uint64_t family);

@@ -59,13 +59,13 @@ int check_replay(const struct check *check, const accel_ray *ray)
     for (int k = 0; k < 3; k++) {
         question.point[k] = ray->org[k] + hit.t * ray->dir[k];
     }
-    ask_judge(check->judge, &question, NULL, &expected_answers);
+    check_ask_judge(check, &question, NULL, &expected_answers);
     print_answers("linear", &expected_answers);
     int code = EXIT_FINE;
     for (size_t i = 0; i < check->suspect_count; i++) {
-        ask(check->suspects[i].structure, &question, NULL, &got_answers);
+        check_ask(check->suspects[i].structure, &question, NULL, &got_answers);
         print_answers(check->suspects[i].info.config, &got_answers);
-        const unsigned differences = count_differences(&question, &expected_answers, &got_answers);
+        const unsigned differences = answers_differ(&question, &expected_answers, &got_answers);
         if (differences != 0) {
             print_differences(differences);
             code = EXIT_DIFFERENT;
@@ -105,6 +105,12 @@ static void print_suspect(const struct check *check, const struct suspect *suspe
            check->ray_count, suspect->hits, suspect->refused, check->judged_count,
            suspect->mismatches, suspect->info.config,
            suspect->added ? "  (added as second opinion)" : "");
+    if (suspect->outside != 0) {
+        printf("  of %" PRIu64
+               " rays that met a raw hit before its object's box the closest is not "
+               "compared\n",
+               suspect->outside);
+    }
     if (suspect->mismatches != 0) {
         printf("  by query: closest %" PRIu64 ", any %" PRIu64 ", all %" PRIu64 ", point %" PRIu64
                "\n",

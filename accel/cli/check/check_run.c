@@ -18,7 +18,7 @@ enum { BLOCK = 64, MOST_DECIDED = 1000 };
 
 /* What one thread found out about one structure. */
 typedef struct tally {
-    uint64_t family_hits[FAMILIES], refused, mismatches, by_query[4], first;
+    uint64_t family_hits[FAMILIES], refused, outside, mismatches, by_query[4], first;
 } tally;
 
 /* What the threads share. */
@@ -59,9 +59,13 @@ struct question check_question(const struct check *check, uint64_t index)
     return question;
 }
 
-static void count(tally *t, uint64_t index, const struct answers *got, unsigned differences)
+/* Of a raw hit before its object's box the header says that kinds need not agree on the closest. */
+static void count(tally *t, uint64_t index, const struct answers *got, unsigned differences,
+                  bool outside)
 {
     t->family_hits[index % FAMILIES] += got->found;
+    t->outside += outside;
+    differences &= outside ? ~(unsigned)DIFFERS_CLOSEST : ~0u;
     if (differences == 0) {
         return;
     }
@@ -77,11 +81,29 @@ static bool all_agree(const struct check *check, const struct question *question
 {
     /* the first structure's accel_any is compared with its own accel_closest */
     for (size_t i = 0; i < check->suspect_count; i++) {
-        if (count_differences(question, &answers[0], &answers[i]) != 0) {
+        if (answers_differ(question, &answers[0], &answers[i]) != 0) {
             return false;
         }
     }
     return true;
+}
+
+void check_ask(const accel *a, const struct question *question, accel_query *query,
+               struct answers *answers)
+{
+    answers_ask(a, &question->ray, query, answers);
+    if (question->lists) {
+        answers_ask_lists(a, &question->ray, question->point, query, answers);
+    }
+}
+
+void check_ask_judge(const struct check *check, const struct question *question, accel_query *query,
+                     struct answers *answers)
+{
+    answers_ask_judge(check->judge, &question->ray, query, answers);
+    if (question->lists) {
+        answers_ask_lists(check->judge, &question->ray, question->point, query, answers);
+    }
 }
 
 /* `answers` has room for all structures and for the judge behind them. */
@@ -89,20 +111,25 @@ static void check_ray(run *r, uint64_t index, tally *tallies, struct answers *an
 {
     const struct check *check = r->check;
     const struct question question = check_question(check, index);
+    bool outside = false;
     for (size_t i = 0; i < check->suspect_count; i++) {
         accel_query query = {0};
-        ask(check->suspects[i].structure, &question, &query, &answers[i]);
+        check_ask(check->suspects[i].structure, &question, &query, &answers[i]);
         tallies[i].refused += query.refused != 0;
+        outside = outside || query.outside != 0;
     }
     const struct answers *expected = &answers[0];
     if (check_judged(check, index) || (!all_agree(check, &question, answers) &&
                                        atomic_fetch_add(&r->decided, 1) < MOST_DECIDED)) {
         struct answers *judged = &answers[check->suspect_count];
-        ask_judge(check->judge, &question, NULL, judged);
+        accel_query query = {0};
+        check_ask_judge(check, &question, &query, judged);
         expected = judged;
+        outside = outside || query.outside != 0;
     }
     for (size_t i = 0; i < check->suspect_count; i++) {
-        count(&tallies[i], index, &answers[i], count_differences(&question, expected, &answers[i]));
+        count(&tallies[i], index, &answers[i], answers_differ(&question, expected, &answers[i]),
+              outside);
     }
 }
 
@@ -139,6 +166,7 @@ static void add_tally(struct suspect *suspect, const tally *t)
         suspect->hits += t->family_hits[i];
     }
     suspect->refused += t->refused;
+    suspect->outside += t->outside;
     suspect->mismatches += t->mismatches;
     suspect->first = t->first < suspect->first ? t->first : suspect->first;
     for (int i = 0; i < 4; i++) {

@@ -16,23 +16,12 @@
 /* Corners compared with ears, at a few nanoseconds each: enough for a spiral of 65,536 corners. */
 #define MOST_CUTTING ((uint64_t)1 << 32)
 
-/* The text of a file, behind its byte-order mark. Without memory for the locale it has none; its
- * locale is to be freed. */
+/* The text of a file, behind its byte-order mark. */
 static mesh_text text_of(const char *bytes, size_t size)
 {
     const bool marked = size >= 3 && memcmp(bytes, "\xEF\xBB\xBF", 3) == 0;
-    return (mesh_text){.at = bytes + (marked ? 3 : 0),
-                       .begin = bytes,
-                       .end = bytes + size,
-                       .line = 1,
-                       .c_locale = newlocale(LC_ALL_MASK, "C", (locale_t)0)};
-}
-
-static void free_text(mesh_text *text)
-{
-    if (text->c_locale != (locale_t)0) {
-        freelocale(text->c_locale);
-    }
+    return (mesh_text){
+        .at = bytes + (marked ? 3 : 0), .begin = bytes, .end = bytes + size, .line = 1};
 }
 
 static bool is_ply(const mesh_text *start)
@@ -123,9 +112,8 @@ static enum mesh_format by_content(const mesh_text *text)
 
 enum mesh_format mesh_recognise(const char *name, const char *bytes, size_t size)
 {
-    mesh_text text = text_of(bytes, size);
+    const mesh_text text = text_of(bytes, size);
     const enum mesh_format format = by_content(&text);
-    free_text(&text);
     return format == MESH_OTHER ? by_name(name) : format;
 }
 
@@ -137,7 +125,6 @@ static bool is_utf16(const struct mesh_source *source)
 
 static void free_reader(mesh_reader *r)
 {
-    free_text(&r->text);
     free(r->mesh.numbers);
     free(r->mesh.indices);
     free(r->face.items);
@@ -172,9 +159,6 @@ static bool read_as(mesh_reader *r, enum mesh_format format)
     }
     if (is_utf16(r->source) && !mesh_is_binary_stl(r->source->bytes, r->source->size)) {
         return mesh_refuse(r, "is text in UTF-16, allowed is UTF-8");
-    }
-    if (r->text.c_locale == (locale_t)0) {
-        return mesh_refuse_memory(r);
     }
     return readers[format](r) && finish(r);
 }

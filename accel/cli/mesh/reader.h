@@ -8,7 +8,7 @@
 
 #include "mesh.h"
 #include "polygon.h"
-#include "scenes/scene_build.h"
+#include "loaded.h"
 #include "text.h"
 
 /* A face whose corners were not all there when it was read: it is cut again at the end. */

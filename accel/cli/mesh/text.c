@@ -4,16 +4,14 @@
  */
 #include "text.h"
 
+#include "core/number.h"
+
 #include <ctype.h>
 #include <float.h>
 #include <stdio.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* A number of text that is not read by one operation: this is more than the longest exact double
- * in decimal has. */
-enum { LONGEST_NUMBER = 2000 };
 
 /* What counts and indices of too many digits become. */
 #define TOO_LARGE UINT64_C(999999999999999999)
@@ -23,6 +21,8 @@ const unsigned char mesh_classes[256] = {
     ['\n'] = MESH_LINE_END, ['\r'] = MESH_LINE_END, ['0'] = MESH_DIGIT,  ['1'] = MESH_DIGIT,
     ['2'] = MESH_DIGIT,     ['3'] = MESH_DIGIT,     ['4'] = MESH_DIGIT,  ['5'] = MESH_DIGIT,
     ['6'] = MESH_DIGIT,     ['7'] = MESH_DIGIT,     ['8'] = MESH_DIGIT,  ['9'] = MESH_DIGIT,
+    ['+'] = MESH_NUMBER,    ['-'] = MESH_NUMBER,    ['.'] = MESH_NUMBER, ['e'] = MESH_NUMBER,
+    ['E'] = MESH_NUMBER,
 };
 
 bool mesh_joins(const mesh_text *text, const char *at)
@@ -109,89 +109,14 @@ bool mesh_take_this(mesh_text *text, const char *wanted)
     return same;
 }
 
-/* The digits of a number and the power of ten that they are multiplied with. */
-typedef struct decimal {
-    uint64_t digits; /* modulo 2^64 */
-    size_t count;    /* of digits, leading zeros too */
-    int exponent;
-} decimal;
-
-/* Scans the digits and the point of a number. Returns its end. */
-static const char *scan_digits(const char *at, const char *end, decimal *d)
-{
-    const char *const begin = at;
-    uint64_t digits = 0;
-    for (; at < end && (unsigned char)(*at - '0') < 10; at++) {
-        digits = 10 * digits + (unsigned char)(*at - '0');
-    }
-    d->count = (size_t)(at - begin);
-    if (at < end && *at == '.') {
-        const char *const behind = ++at;
-        for (; at < end && (unsigned char)(*at - '0') < 10; at++) {
-            digits = 10 * digits + (unsigned char)(*at - '0');
-        }
-        d->count += (size_t)(at - behind);
-        d->exponent = at - behind < 1000 ? -(int)(at - behind) : -1000;
-    }
-    d->digits = digits;
-    return at;
-}
-
-/* Scans the exponent. Returns its end, or NULL where it has no digit. */
-static const char *scan_exponent(const char *at, const char *end, decimal *d)
-{
-    const bool negative = ++at < end && *at == '-';
-    at += at < end && (*at == '-' || *at == '+');
-    const char *const begin = at;
-    int exponent = 0;
-    for (; at < end && mesh_is(*at, MESH_DIGIT); at++) {
-        exponent = exponent < 100000 ? 10 * exponent + (*at - '0') : exponent;
-    }
-    d->exponent += negative ? -exponent : exponent;
-    return at == begin ? NULL : at;
-}
-
-/* By strtod. False: it is too long, or too large for a double, or there is no locale. */
-static bool convert(const mesh_text *text, const char *begin, size_t length, double *number)
-{
-    char copy[LONGEST_NUMBER + 1];
-    if (length > LONGEST_NUMBER || text->c_locale == (locale_t)0) {
-        return false;
-    }
-    memcpy(copy, begin, length);
-    copy[length] = '\0';
-    *number = strtod_l(copy, NULL, text->c_locale);
-    return *number <= DBL_MAX && *number >= -DBL_MAX;
-}
-
-/* One operation on exact operands rounds correctly; it must not be rounded twice. */
-static bool is_one_operation(const decimal *d)
-{
-    return FLT_EVAL_METHOD == 0 && d->count <= 19 && d->digits <= UINT64_C(1) << 53 &&
-           d->exponent >= -22 && d->exponent <= 22;
-}
-
 bool mesh_take_number(mesh_text *text, double *number)
 {
-    static const double powers[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
-                                    1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
-                                    1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
-    const char *const begin = text->at;
-    decimal d = {0, 0, 0};
-    const char *at = begin;
-    at += at < text->end && (*at == '-' || *at == '+');
-    at = scan_digits(at, text->end, &d);
-    if (d.count != 0 && at < text->end && (*at == 'e' || *at == 'E')) {
-        at = scan_exponent(at, text->end, &d);
+    const char *at = text->at;
+    while (at < text->end && mesh_is(*at, MESH_DIGIT | MESH_NUMBER)) {
+        at++;
     }
-    if (d.count == 0 || at == NULL || !mesh_word_ends(text, at)) {
-        return false;
-    }
-    if (is_one_operation(&d)) {
-        const double digits = (double)d.digits;
-        *number = d.exponent < 0 ? digits / powers[-d.exponent] : digits * powers[d.exponent];
-        *number = *begin == '-' ? -*number : *number;
-    } else if (!convert(text, begin, (size_t)(at - begin), number)) {
+    if (!mesh_word_ends(text, at) ||
+        !accel_number_parse(text->at, (size_t)(at - text->at), number) || !isfinite(*number)) {
         return false;
     }
     text->at = at;
@@ -210,13 +135,11 @@ bool mesh_take_float(mesh_text *text, double *number)
     if (size > (double)FLT_MAX || size < (double)FLT_MIN) {
         return true;
     }
+    /* what is midway between floats as a double may not have been so before */
     const bool midway = (bits & UINT64_C(0x1fffffff)) == UINT64_C(0x10000000);
-    char copy[LONGEST_NUMBER + 1];
-    const size_t length = (size_t)(text->at - begin);
-    if (midway && length <= LONGEST_NUMBER && text->c_locale != (locale_t)0) {
-        memcpy(copy, begin, length);
-        copy[length] = '\0';
-        *number = (double)strtof_l(copy, NULL, text->c_locale);
+    char rewritten[NUMBER_REWRITTEN];
+    if (midway && accel_number_rewrite(begin, (size_t)(text->at - begin), rewritten)) {
+        *number = (double)strtof(rewritten, NULL);
     } else {
         *number = (double)(float)*number;
     }

@@ -3,14 +3,11 @@
  * Words, numbers and lines of text formats. A line ends with LF, CR LF or CR.
  *
  * A number is [+-] digits [. digits] [e [+-] digits] with a digit on one side of the point at
- * least: no hex, no inf, no nan. It becomes the nearest double: up to 2^53 and 10^22 by one exact
- * product or quotient (Clinger, "How to read floating point numbers accurately", 1990), else by
- * strtod in the C locale.
+ * least: no hex, no inf, no nan. It becomes the nearest double (core/number.h).
  */
 #ifndef ACCEL_CLI_MESH_TEXT_H
 #define ACCEL_CLI_MESH_TEXT_H
 
-#include <locale.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -21,12 +18,11 @@ typedef struct mesh_text {
     const char *begin; /* of all */
     const char *end;   /* behind the last one */
     uint64_t line;     /* of `at`, counted from 1 */
-    locale_t c_locale; /* of numbers */
     char comment;      /* what follows it on a line is a comment; 0: nothing is */
     bool joins;        /* a backslash at the end of a line joins it with the next one */
 } mesh_text;
 
-enum { MESH_BLANK = 1, MESH_LINE_END = 2, MESH_DIGIT = 4 };
+enum { MESH_BLANK = 1, MESH_LINE_END = 2, MESH_DIGIT = 4, MESH_NUMBER = 8 };
 
 /* The classes of a character. */
 extern const unsigned char mesh_classes[256];

@@ -36,21 +36,6 @@ uint32_t scene_lights(const char *name, const accel_scene *scene, struct light l
     return 1;
 }
 
-/* Reads `count` numbers separated by commas from text[0..length). */
-static bool read_numbers(const char *text, size_t length, double *out, int count)
-{
-    const char *end = text + length;
-    for (int i = 0; i < count; i++) {
-        const char *comma = memchr(text, ',', (size_t)(end - text));
-        const char *stop = i == count - 1 ? end : comma;
-        if (stop == NULL || !read_number(text, (size_t)(stop - text), &out[i])) {
-            return false;
-        }
-        text = stop + 1;
-    }
-    return true;
-}
-
 const char *light_read(const char *text, struct light *light)
 {
     double *const parts[] = {light->corner, light->edge[0], light->edge[1], &light->power};

@@ -9,7 +9,7 @@
 #include "photons_surface.h"
 #include "photons_vector.h"
 #include "tool/progress.h"
-#include "tool/random.h"
+#include "random.h"
 
 #include <assert.h>
 #include <stdatomic.h>

@@ -11,11 +11,27 @@
 #include "report_folder.h"
 #include "structure.h"
 
+/* What fills a gap of the page: HTML. */
+struct page_value {
+    const char *key;
+    char *text;
+    size_t length;
+};
+
+enum { PAGE_VALUES = 64 };
+
+/* The page under way. */
+struct page {
+    FILE *file;
+    struct page_value values[PAGE_VALUES];
+    size_t count;
+};
+
 /* A report under way. */
 struct reporting {
     const struct command *command;
     struct folder folder;     /* where all of it is written */
-    FILE *page;               /* index.html */
+    struct page page;         /* index.html */
     struct progress progress; /* shown while it runs */
     double seconds;           /* that the whole may take, about */
     double built;             /* processor time of the last report_build */
@@ -30,49 +46,44 @@ report_section report_exact, report_cases, report_light, report_choice, report_s
 
 /* --------------------------------------------------------------------- page ---- */
 
-/* Writes the head of the page: what this is, on which machine. */
-void page_open(struct reporting *r);
+/* Opens it, before anything long is computed. False: said. */
+bool page_open(struct reporting *r);
 
-/* Ends the page; false: the disk took no more. */
-bool page_close(struct reporting *r);
+/* Fills a gap of the page with HTML. A part of the page is there where it has set the gap of its
+ * name. False: no memory, which has been said. */
+bool page_set(struct reporting *r, const char *key, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
 
-/* Starts a section. */
-void page_title(struct reporting *r, const char *id, const char *title);
-
-/* A paragraph; its text is HTML. */
-void page_text(struct reporting *r, const char *format, ...) __attribute__((format(printf, 2, 3)));
+/* The same for long text: a stream, or NULL, to be ended in any case. */
+FILE *page_value(struct reporting *r, const char *key);
+bool page_value_end(struct reporting *r, FILE *value);
 
 /* Writes text with &, < and > as HTML wants them. */
-void page_escaped(struct reporting *r, const char *text);
+void page_escaped(FILE *to, const char *text);
 
-/* Shows NAME.svg with what it shows in words, and a link to the figures in CSV. */
-bool page_plot(struct reporting *r, const char *name, const char *csv, const char *caption);
+/* Writes the page. False: said. */
+bool page_write(struct reporting *r);
+
+/* Frees what belongs to it. */
+void page_free(struct reporting *r);
 
 /* -------------------------------------------------------------------- plots ---- */
-
-/* A program for gnuplot. */
-struct plot {
-    FILE *script; /* to write to */
-    char name[40];
-};
 
 /* Why gnuplot cannot be run, or NULL. */
 const char *plot_missing(void);
 
-/* Starts a program that draws NAME.svg in the folder, with the style of all plots set. False: said.
- */
-bool plot_open(struct reporting *r, struct plot *plot, const char *name, int width, int height);
+/* Which contenders a plot shows: all kinds and forms, or the kinds but linear as they come. */
+enum plot_forms { PLOT_FORMS, PLOT_KINDS };
 
-/* Has gnuplot draw it. False: that has failed, and that has been said. */
-bool plot_close(struct reporting *r, struct plot *plot);
-
-/* How a contender is drawn in all plots: "lc rgb '#0072B2' pt 7". By kind, or for peers. */
-const char *plot_style(const char *name);
+/* Has gnuplot draw NAME.svg by plots/PROGRAM.gnuplot, after `given`, which sets what that asks for.
+ * False: said. */
+bool plot_draw(struct reporting *r, const char *name, const char *program, enum plot_forms forms,
+               const char *given);
 
 /* ------------------------------------------------------------------ figures ---- */
 
-/* Is there a kind but linear and auto? Otherwise says so on the page, under the title. */
-bool report_has_structures(struct reporting *r, const char *id, const char *title);
+/* Is there a kind but linear and auto? Otherwise says so on the page. */
+bool report_has_structures(struct reporting *r);
 
 /* Opens NAME in the folder and writes the names of its columns. False: said. */
 FILE *report_csv(struct reporting *r, const char *name, const char *columns);

@@ -2,7 +2,7 @@
  *
  * Contenders of an exam, and what of their answers is wrong.
  */
-#include "scenes/judge.h"
+#include "answers.h"
 #include "report_exam.h"
 
 /* What Embree's rays may hold: it ends the program at others (ray.h: valid, FLT_LARGE). */

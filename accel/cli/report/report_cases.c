@@ -196,7 +196,7 @@ static bool run_case(cases *x, struct case_row row, struct exam_subject on, uint
 static bool run_generic(cases *x, double seconds)
 {
     struct exam e;
-    const struct exam_subject on = {.maker = scene_maker_find("soup"), .family = ray_families};
+    const struct exam_subject on = {.maker = scene_maker_find("shards"), .family = ray_families};
     bool fine = exam_make(&e, on, seconds, 200, 2000);
     if (!fine) {
         complain(x->r->command, "no memory; nothing was written");
@@ -319,7 +319,7 @@ bool report_cases(struct reporting *r, double seconds)
     if (!fine) {
         fclose(csv);
     } else if ((fine = report_csv_close(r, csv, ACCEL_CASES_CSV))) {
-        cases_page(r, x->rows, x->count);
+        fine = cases_page(r, x->rows, x->count);
     }
     free(x);
     return fine;

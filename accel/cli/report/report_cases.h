@@ -43,8 +43,8 @@ struct case_row {
 
 enum { MOST_CASES = 160 };
 
-/* Writes the table. */
-void cases_page(struct reporting *r, const struct case_row *rows, size_t count);
+/* Fills the page. False: said. */
+bool cases_page(struct reporting *r, const struct case_row *rows, size_t count);
 
 #define ACCEL_CASES_CSV "cases.csv"
 

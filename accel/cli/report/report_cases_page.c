@@ -40,7 +40,7 @@ static const struct topic {
      "(NVIDIA/warp#1530)"},
     {"closed", "closed meshes and fans",
      "leaks at a vertex in robust mode, agreed (embree#174, #181)"},
-    {"stadium", "a teapot in a stadium", "a uniform grid puts it all into one cell"},
+    {"speck", "a speck in a large scene", "a uniform grid puts it all into one cell"},
     {"huge-and-tiny", "huge and tiny, unbounded",
      "POV-Ray: beyond 1e7 nothing is hit, above 2e10 nothing is bounded (configcore.h:153)"},
     {"ties", "ties",
@@ -65,53 +65,53 @@ static const struct topic {
 
 enum { TOPICS = sizeof topics / sizeof topics[0] };
 
-static void write_share(struct reporting *r, size_t wrong, size_t n)
+static void write_share(FILE *to, size_t wrong, size_t n)
 {
     if (n == 0) {
-        fprintf(r->page, "<td class=\"n\">-</td>");
+        fprintf(to, "<td class=\"n\">-</td>");
     } else {
         const double share = 100.0 * (double)wrong / (double)n;
-        fprintf(r->page, "<td class=\"n %s\">%zu <small>(%.*f %%)</small></td>",
+        fprintf(to, "<td class=\"n %s\">%zu <small>(%.*f %%)</small></td>",
                 wrong > 0 ? "bad" : "good", wrong, share >= 1.0 ? 0 : 2, share);
     }
 }
 
-static void write_povray(struct reporting *r, const struct povray *p)
+static void write_povray(FILE *to, const struct povray *p)
 {
     if (!p->ran) {
-        fprintf(r->page, "<td class=\"n\">-</td>");
+        fprintf(to, "<td class=\"n\">-</td>");
         return;
     }
     const size_t wrong = p->lost + p->false_hits + p->off;
-    fprintf(r->page, "<td class=\"n %s\">%zu of %zu", wrong > 0 ? "bad" : "good", wrong, p->asked);
+    fprintf(to, "<td class=\"n %s\">%zu of %zu", wrong > 0 ? "bad" : "good", wrong, p->asked);
     if (wrong > 0) {
-        fprintf(r->page, "<br/><small>%zu lost, %zu false, %zu off</small>", p->lost, p->false_hits,
+        fprintf(to, "<br/><small>%zu lost, %zu false, %zu off</small>", p->lost, p->false_hits,
                 p->off);
     }
-    fprintf(r->page, "</td>");
+    fprintf(to, "</td>");
 }
 
-static void write_row(struct reporting *r, const struct case_row *c)
+static void write_row(FILE *to, const struct case_row *c)
 {
-    fprintf(r->page, "<tr><td><b>%s</b>", c->name);
+    fprintf(to, "<tr><td><b>%s</b>", c->name);
     if (c->scene != NULL) {
-        fprintf(r->page, " on %s", c->scene);
+        fprintf(to, " on %s", c->scene);
     }
-    fprintf(r->page, "<br/><small>");
-    page_escaped(r, c->meaning);
-    fprintf(r->page, "</small></td><td class=\"n\">%zu<br/><small>%s</small></td>", c->decided,
+    fprintf(to, "<br/><small>");
+    page_escaped(to, c->meaning);
+    fprintf(to, "</small></td><td class=\"n\">%zu<br/><small>%s</small></td>", c->decided,
             judge_names[c->judge]);
-    write_share(r, c->fast, c->peers ? c->decided_peer : 0);
-    write_share(r, c->robust, c->peers ? c->decided_peer : 0);
-    write_share(r, c->robust_single, c->peers ? c->decided_single : 0);
-    write_povray(r, &c->povray);
-    fprintf(r->page, "<td class=\"n %s\">%zu</td>", c->wrong > 0 ? "bad" : "good", c->wrong);
-    fprintf(r->page, "<td class=\"n\">%.2f<br/><small>%.1f %s</small></td></tr>\n", c->cost_middle,
+    write_share(to, c->fast, c->peers ? c->decided_peer : 0);
+    write_share(to, c->robust, c->peers ? c->decided_peer : 0);
+    write_share(to, c->robust_single, c->peers ? c->decided_single : 0);
+    write_povray(to, &c->povray);
+    fprintf(to, "<td class=\"n %s\">%zu</td>", c->wrong > 0 ? "bad" : "good", c->wrong);
+    fprintf(to, "<td class=\"n\">%.2f<br/><small>%.1f %s</small></td></tr>\n", c->cost_middle,
             c->cost_worst, c->worst);
 }
 
 /* A topic and its cases; nothing where there are none. */
-static size_t write_topic(struct reporting *r, const struct topic *t, const struct case_row *rows,
+static size_t write_topic(FILE *to, const struct topic *t, const struct case_row *rows,
                           size_t count)
 {
     size_t written = 0;
@@ -120,12 +120,12 @@ static size_t write_topic(struct reporting *r, const struct topic *t, const stru
             continue;
         }
         if (written++ == 0) {
-            fprintf(r->page, "<tr><th colspan=\"8\">%s: %s <span class=\"told\">told: ", t->test,
+            fprintf(to, "<tr><th colspan=\"8\">%s: %s <span class=\"told\">told: ", t->test,
                     t->title);
-            page_escaped(r, t->told);
-            fprintf(r->page, "</span></th></tr>\n");
+            page_escaped(to, t->told);
+            fprintf(to, "</span></th></tr>\n");
         }
-        write_row(r, &rows[i]);
+        write_row(to, &rows[i]);
     }
     return written;
 }
@@ -156,43 +156,28 @@ static totals sum_up(const struct case_row *rows, size_t count)
     return t;
 }
 
-void cases_page(struct reporting *r, const struct case_row *rows, size_t count)
+static bool write_rows(struct reporting *r, const struct case_row *rows, size_t count)
+{
+    FILE *to = page_value(r, "cases");
+    for (size_t i = 0; to != NULL && i < TOPICS; i++) {
+        write_topic(to, &topics[i], rows, count);
+    }
+    return page_value_end(r, to);
+}
+
+bool cases_page(struct reporting *r, const struct case_row *rows, size_t count)
 {
     const totals t = sum_up(rows, count);
     const char *version = povray_version(r);
-    page_title(r, "cases", "Stiff and extreme cases");
-    page_text(
-        r,
-        "Scenes and rays made to break ray tracers; the names G2 to R6 are those of the tests, "
-        "which "
-        "use the same generators. %zu answers of ours were judged here, over all kinds and forms: "
-        "<b>%zu were wrong</b>. Embree, in single precision, was asked where it knows the scene: "
-        "in fast mode it is wrong somewhere in %zu of %zu cases, in robust mode in %zu. %s shot "
-        "the "
-        "same rays in %zu cases and is wrong in %zu; more than a thousandth off in distance counts "
-        "as wrong for it. The mix of rays is hostile: of six rays one aims at nothing, the others "
-        "at "
-        "vertices, along edges, inside, along an axis through a vertex, and grazing.",
-        t.asked, t.wrong, t.fast, t.cases, t.robust,
-        version != NULL ? version : "POV-Ray (not installed on this machine)", t.povray,
-        t.povray_wrong);
-    page_text(r,
-              "<b>What it costs us:</b> time per ray over that on the generic scene of 1,000 "
-              "triangles with the same mix of rays, the median of our forms, and the worst "
-              "form. <b>Where we lose:</b> the dearest is %s at %.0f times, for "
-              "<code>%s</code>. A dash: not asked, as the scene holds host objects or invalid "
-              "primitives, or is too large for POV-Ray's scene language. What is told in "
-              "italics is from the named source, not measured. The figures of every form: "
-              "<a href=\"%s\">%s</a>.",
-              t.dearest->name, t.dearest->cost_worst, t.dearest->worst, ACCEL_CASES_CSV,
-              ACCEL_CASES_CSV);
-    fprintf(r->page,
-            "<table><tr><th>case</th><th class=\"n\">rays decided<br/>by</th>"
-            "<th class=\"n\">Embree fast: wrong</th><th class=\"n\">Embree robust: wrong</th>"
-            "<th class=\"n\">robust, of its rounded input</th><th class=\"n\">POV-Ray: wrong</th>"
-            "<th class=\"n\">ours: wrong</th><th class=\"n\">cost<br/>worst</th></tr>\n");
-    for (size_t i = 0; i < TOPICS; i++) {
-        write_topic(r, &topics[i], rows, count);
-    }
-    fprintf(r->page, "</table>\n");
+    return page_set(r, "cases.asked", "%zu", t.asked) &&
+           page_set(r, "cases.wrong", "%zu", t.wrong) && page_set(r, "cases.fast", "%zu", t.fast) &&
+           page_set(r, "cases.peers", "%zu", t.cases) &&
+           page_set(r, "cases.robust", "%zu", t.robust) &&
+           page_set(r, "cases.povray", "%s",
+                    version != NULL ? version : "POV-Ray (not installed on this machine)") &&
+           page_set(r, "cases.povray.asked", "%zu", t.povray) &&
+           page_set(r, "cases.povray.wrong", "%zu", t.povray_wrong) &&
+           page_set(r, "cases.dearest", "%s", t.dearest->name) &&
+           page_set(r, "cases.dearest.cost", "%.0f", t.dearest->cost_worst) &&
+           page_set(r, "cases.dearest.form", "%s", t.dearest->worst) && write_rows(r, rows, count);
 }

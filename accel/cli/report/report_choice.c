@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-static const char csv_name[] = "choice.csv", title[] = "The cost of a choice";
+static const char csv_name[] = "choice.csv";
 static const char columns[] =
     "scene,panel,kind,option,position,value,config,rays,wrong,share,shown,ns_per_ray,build_seconds,"
     "seconds_with_build,nodes,tests,bytes";
@@ -44,7 +44,6 @@ static const struct panel {
 enum { PANELS = sizeof panels / sizeof panels[0] };
 
 static const char *const scenes[] = {"teapots", "cubes:gap=4"};
-static const char *const titles[] = {"nine teapots and a floor", "two clusters of cubes"};
 
 enum { SCENES = sizeof scenes / sizeof scenes[0] };
 
@@ -135,121 +134,48 @@ static bool run_scene(struct reporting *r, FILE *csv, size_t scene, size_t rays,
 
 /* -------------------------------------------------------------------- plots ---- */
 
-/* The curves of one panel in one row; column: what is drawn. */
-static void draw_curves(FILE *script, const char *scene, const struct panel *p, int column)
+static void write_words(FILE *to, const char *const *words, size_t most)
 {
-    for (size_t k = 0; k < MOST_CURVES && p->kinds[k] != NULL; k++) {
-        char condition[200];
-        snprintf(condition, sizeof condition,
-                 "strcol(1) eq '%s' && strcol(2) eq '%s' && strcol(3) eq '%s'", scene, p->title,
-                 p->kinds[k]);
-        const char *style = plot_style(p->kinds[k]);
-        fprintf(script,
-                "'%s' using (%s && $5 > 0 ? $5 : NaN):%d with linespoints lw 1.3 %s, "
-                "'%s' using (%s && $5 == 0 ? 0 : NaN):%d with points ps 1.3 %s, ",
-                csv_name, condition, column, style, csv_name, condition, column, style);
+    for (size_t i = 0; i < most && words[i] != NULL; i++) {
+        fprintf(to, "%s ", words[i]);
     }
 }
 
-static void draw_panel(FILE *script, size_t panel, size_t row)
+/* The panels as gnuplot's arrays. */
+static void write_panels(FILE *to)
 {
-    const struct panel *p = &panels[panel];
-    const bool errors = row == SCENES;
-    fprintf(script, "set origin %g,%g\nset size 0.2,%g\nset xtics ('auto' 0",
-            0.075 + 0.236 * (double)panel,
-            errors     ? 0.19
-            : row == 0 ? 0.68
-                       : 0.39,
-            errors ? 0.1 : 0.23);
-    int count = 0;
-    for (; p->values[count] != NULL; count++) {
-        fprintf(script, ",'%s' %d", p->values[count], count + 1);
+    fprintf(to, "array titles[%d]\narray values[%d]\narray curves[%d]\n", PANELS, PANELS, PANELS);
+    for (int p = 0; p < PANELS; p++) {
+        fprintf(to, "titles[%d] = '%s'\nvalues[%d] = '", p + 1, panels[p].title, p + 1);
+        write_words(to, panels[p].values, MOST_VALUES);
+        fprintf(to, "'\ncurves[%d] = '", p + 1);
+        write_words(to, panels[p].kinds, MOST_CURVES);
+        fprintf(to, "'\n");
     }
-    fprintf(script,
-            ") rotate by -45\nset xrange [-0.5:%d.5]\nset title '%s' offset 0,-0.5\n"
-            "set ylabel \"%s\" offset 1,0\nset xlabel '%s' offset 0,0.4\n",
-            count, row == 0 ? p->title : "",
-            panel > 0  ? ""
-            : errors   ? "share\\nwrong"
-            : row == 0 ? "ns per ray\\nnine teapots"
-                       : "ns per ray\\ntwo clusters of cubes",
-            errors ? p->title : "");
-    fprintf(script, "set yrange %s\nset format y '%s'\nset format x \"%s\"\n",
-            errors ? "[1e-7:1]" : "[*:3e4]", panel > 0 ? "" : "10^{%T}", errors ? "%g" : "");
-    fprintf(script, errors ? "set ytics 1e3\n" : "set ytics autofreq\n");
-    fprintf(script, "plot ");
-    if (errors) {
-        fprintf(script,
-                "'%s' using (strcol(2) eq '%s' && $9 == 0 ? $5 : NaN):11:(0):(-0.9*$11) with "
-                "vectors filled size graph 0.02,25 lc rgb '#999999', ",
-                csv_name, p->title);
-        draw_curves(script, scenes[0], p, 11);
-    } else {
-        fprintf(script, "a%zu with lines lc rgb '#000000' dt 2, ", row);
-        draw_curves(script, scenes[row], p, 12);
-    }
-    fprintf(script, "NaN\n");
-}
-
-static void draw_key(FILE *script)
-{
-    static const char *const kinds[] = {"octree", "hoo", "bsp", "bvh", "grid", "hug"};
-    fprintf(script,
-            "unset title\nunset xlabel\nunset ylabel\nunset border\nunset tics\nunset grid\n"
-            "unset logscale\nset xrange [0:1]\nset yrange [0:1]\nset origin 0.05,0\n"
-            "set size 0.9,0.08\nset key horizontal Left reverse center center samplen 2\nplot ");
-    for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; k++) {
-        fprintf(script, "NaN with linespoints lw 1.3 %s title '%s', ", plot_style(kinds[k]),
-                kinds[k]);
-    }
-    fprintf(script, "NaN with lines lc rgb '#000000' dt 2 title 'kind auto'\nunset multiplot\n");
 }
 
 static bool draw(struct reporting *r)
 {
-    struct plot plot;
-    if (!plot_open(r, &plot, "choice", 980, 780)) {
+    char given[2000];
+    FILE *to = fmemopen(given, sizeof given, "w");
+    if (to == NULL) {
+        complain(r->command, "no memory for choice.svg; nothing was written");
         return false;
     }
-    for (size_t s = 0; s < SCENES; s++) {
-        fprintf(plot.script,
-                "stats '%s' using (strcol(1) eq '%s' && strcol(3) eq 'auto' ? $12 : NaN) name 'S' "
-                "nooutput\na%zu = S_max\n",
-                csv_name, scenes[s], s);
-    }
-    fprintf(plot.script, "set multiplot\nset logscale y\nunset mytics\nset tmargin 0\n"
-                         "set bmargin 0\nset lmargin 0\nset rmargin 0\n");
-    for (size_t row = 0; row <= SCENES; row++) {
-        for (size_t panel = 0; panel < PANELS; panel++) {
-            draw_panel(plot.script, panel, row);
-        }
-    }
-    draw_key(plot.script);
-    return plot_close(r, &plot);
+    write_panels(to);
+    fclose(to);
+    return plot_draw(r, "choice", "choice", PLOT_FORMS, given);
 }
 
-static bool write_page(struct reporting *r, size_t rays, const regret *worst)
+static bool fill_page(struct reporting *r, size_t rays, const regret *worst)
 {
-    char caption[900];
-    page_title(r, "choice", title);
-    page_text(r,
-              "Structures have options, and papers tune them. No option has to be given here: "
-              "at its left each curve begins with what the structure chooses by itself "
-              "(auto); the dashed line is the kind <code>auto</code>, which chooses the "
-              "structure too. Rays: up to %zu diffuse bounces, as in a path tracer.",
-              rays);
-    snprintf(caption, sizeof caption,
-             "Options against time per ray (%s above, %s in the middle) and against the share of "
-             "wrong answers (below; an arrow down: none). No option changes an answer. "
-             "<b>Where we lose:</b> where an own choice is worst, <code>%s</code> is %.2f times as "
-             "fast.",
-             titles[0], titles[1], worst->where, worst->worst);
-    return page_plot(r, "choice", csv_name, caption);
+    return page_set(r, "choice", "%s", worst->where) && page_set(r, "choice.rays", "%zu", rays) &&
+           page_set(r, "choice.factor", "%.2f", worst->worst);
 }
 
 bool report_choice(struct reporting *r, double seconds)
 {
-    if (!report_has_structures(r, "choice", title)) {
+    if (!report_has_structures(r)) {
         return true;
     }
     FILE *csv = report_csv(r, csv_name, columns);
@@ -268,5 +194,5 @@ bool report_choice(struct reporting *r, double seconds)
             return false;
         }
     }
-    return report_csv_close(r, csv, csv_name) && draw(r) && write_page(r, rays, &worst);
+    return report_csv_close(r, csv, csv_name) && draw(r) && fill_page(r, rays, &worst);
 }

@@ -25,23 +25,22 @@ typedef struct subject {
     const char *maker; /* in the catalogue; NULL: leaks */
     int leaks;         /* index of the ball in leak_balls */
     const char *name;  /* in the figures */
-    const char *title; /* of its panel; NULL: it has none */
     bool random;       /* rays that aim at nothing; else the catalogue's mix */
 } subject;
 
 static const subject subjects[] = {
-    {"soup", 0, "random-rays", "1,000 triangles, random rays", true},
-    {"soup", 0, "soup", "the same, rays at vertices and edges too", false},
-    {"shift-1e3", 0, "shift-1e3", "10³ off the origin", false},
-    {"shift-1e6", 0, "shift-1e6", "10⁶ off the origin", false},
-    {"shift-1e9", 0, "shift-1e9", NULL, false},
-    {"shift-1e12", 0, "shift-1e12", NULL, false},
-    {"shift-1e15", 0, "shift-1e15", NULL, false},
-    {"scale-1e-12", 0, "scale-1e-12", "tiny: all sizes times 10⁻¹²", false},
-    {"slivers", 0, "slivers", "slivers, aspect 10⁻³ to 10⁻¹⁴", false},
-    {"sizes", 0, "sizes", "edges from 10⁻¹² to 1", false},
-    {NULL, 0, "leaks", "closed mesh, at vertices and edges", false},
-    {NULL, 1, "leaks-1e5", "the same, 10⁵ off the origin", false},
+    {"shards", 0, "random-rays", true},
+    {"shards", 0, "shards", false},
+    {"shift-1e3", 0, "shift-1e3", false},
+    {"shift-1e6", 0, "shift-1e6", false},
+    {"shift-1e9", 0, "shift-1e9", false},
+    {"shift-1e12", 0, "shift-1e12", false},
+    {"shift-1e15", 0, "shift-1e15", false},
+    {"scale-1e-12", 0, "scale-1e-12", false},
+    {"slivers", 0, "slivers", false},
+    {"sizes", 0, "sizes", false},
+    {NULL, 0, "leaks", false},
+    {NULL, 1, "leaks-1e5", false},
 };
 
 enum { SUBJECTS = sizeof subjects / sizeof subjects[0] };
@@ -90,7 +89,7 @@ static void judge_all(examined *x)
 }
 
 /* Rays that aim at nothing in particular: of the mix every sixth. */
-static accel_ray random_ray(const struct test_scene *s, const accel *judge, struct rng *d,
+static accel_ray random_ray(const struct ray_target *s, const accel *judge, struct rng *d,
                             uint64_t i)
 {
     (void)i;
@@ -141,175 +140,24 @@ static bool run_subject(struct reporting *r, const subject *s, FILE *csv, double
 
 /* -------------------------------------------------------------------- plots ---- */
 
-/* The peers that are drawn, and how. */
-static const struct drawn_peer {
-    const char *input, *name, *title, *style;
-} drawn_peers[] = {
-    {"given", "medium", "Embree fast", "lc rgb '#882255' pt 1 lw 2"},
-    {"given", "medium robust", "Embree robust", "lc rgb '#882255' pt 2 lw 2"},
-    {"rounded", "medium", "Embree fast, rounded input", "lc rgb '#d59fbd' pt 1 lw 2"},
-    {"rounded", "medium robust", "Embree robust, rounded input", "lc rgb '#d59fbd' pt 2 lw 2"},
-};
-
-enum { DRAWN_PEERS = sizeof drawn_peers / sizeof drawn_peers[0] };
-
-/* One contender's points in one panel, by gnuplot's conditions on the columns. */
-static void draw_element(FILE *script, const char *condition, int x, const char *style)
+static bool draw(struct reporting *r)
 {
-    fprintf(script, "'%s' using (%s ? $%d : NaN):11 with points %s, ", csv_name, condition, x,
-            style);
+    return plot_draw(r, "exact", "exact", PLOT_FORMS,
+                     "over = 'ns_per_ray'\nlabel = 'ns per ray'\nlo = 20\nhi = 1e5\n") &&
+           plot_draw(r, "exact-build", "exact", PLOT_FORMS,
+                     "over = 'seconds_with_build'\nlabel = 'seconds, build and 10⁶ rays'\n"
+                     "lo = 0.02\nhi = 100\n") &&
+           plot_draw(r, "exact-far", "exact-far", PLOT_FORMS,
+                     r->wrong == 0 ? "ours = \"all kinds of ours:\\nnone wrong (< 1/N)\"\n"
+                                   : "ours = 'hoo'\n");
 }
 
-/* The points of one panel; a small triangle below where none is wrong. */
-static void draw_points(FILE *script, const char *scene, int x)
+static bool fill_page(struct reporting *r, const comparison *all)
 {
-    const struct forms forms = forms_of_kinds(NULL);
-    fprintf(script,
-            "plot '%s' using (strcol(1) eq '%s' && $9 == 0 ? $%d : NaN):(0.45*$11) with points pt "
-            "11 ps 0.45 lc rgb '#999999', ",
-            csv_name, scene, x);
-    char condition[160];
-    for (size_t i = 0; i < DRAWN_PEERS; i++) {
-        snprintf(condition, sizeof condition,
-                 "strcol(1) eq '%s' && strcol(2)[13:] eq '%s' && strcol(4) eq '%s'", scene,
-                 drawn_peers[i].name, drawn_peers[i].input);
-        draw_element(script, condition, x, drawn_peers[i].style);
-    }
-    for (size_t i = 0; i < forms.count; i++) {
-        snprintf(condition, sizeof condition, "strcol(1) eq '%s' && strcol(2) eq '%s'", scene,
-                 forms.at[i]);
-        draw_element(script, condition, x, plot_style(forms.at[i]));
-    }
-    fprintf(script, "NaN\n");
-}
-
-/* The names of all contenders, at the bottom. */
-static void draw_key(FILE *script)
-{
-    const struct forms forms = forms_of_kinds(NULL);
-    fprintf(script,
-            "unset title\nunset xlabel\nunset ylabel\nunset border\nunset tics\nunset grid\n"
-            "unset logscale\nset xrange [0:1]\nset yrange [0:1]\nset origin 0.02,0\n"
-            "set size 0.96,0.14\nset key horizontal Left reverse center center samplen 1 maxcols 4"
-            " font ',12'\nplot ");
-    for (size_t i = 0; i < DRAWN_PEERS; i++) {
-        fprintf(script, "NaN with points %s title '%s', ", drawn_peers[i].style,
-                drawn_peers[i].title);
-    }
-    for (size_t i = 0; i < forms.count; i++) {
-        fprintf(script, "NaN with points %s title '%s', ", plot_style(forms.at[i]), forms.at[i]);
-    }
-    fprintf(script, "NaN with points lc rgb '#999999' pt 11 ps 0.5 title 'none wrong: at 1/N'\n");
-}
-
-/* A panel for each titled scene, three in a row, and the key below. */
-static bool draw(struct reporting *r, const char *name, int x, const char *xlabel,
-                 const char *range)
-{
-    struct plot plot;
-    if (!plot_open(r, &plot, name, 960, 880)) {
-        return false;
-    }
-    fprintf(plot.script,
-            "set multiplot\nset logscale xy\nset xrange %s\nset yrange [5e-6:2]\n"
-            "unset mxtics\nunset mytics\nset ytics 100\nset tmargin 0\nset bmargin 0\nset lmargin "
-            "0\nset rmargin "
-            "0\nset size 0.27,0.2\n",
-            range);
-    int panel = 0;
-    for (size_t i = 0; i < SUBJECTS; i++) {
-        if (subjects[i].title == NULL) {
-            continue;
-        }
-        const int column = panel % 3, row = panel / 3;
-        fprintf(plot.script,
-                "set origin %g,%g\nset title '%s' offset 0,-0.5\nset xlabel '%s' "
-                "offset 0,0.5\nset ylabel '%s' offset 1,0\nset format x '%s'\n"
-                "set format y '%s'\n",
-                0.085 + 0.31 * column, 0.76 - 0.25 * row, subjects[i].title, row == 2 ? xlabel : "",
-                column == 0 ? "share of wrong answers" : "", row == 2 ? "10^{%T}" : "",
-                column == 0 ? "10^{%T}" : "");
-        draw_points(plot.script, subjects[i].name, x);
-        panel++;
-    }
-    draw_key(plot.script);
-    fprintf(plot.script, "unset multiplot\n");
-    return plot_close(r, &plot);
-}
-
-/* The share of wrong answers over the distance to the origin. */
-static bool draw_distance(struct reporting *r)
-{
-    struct plot plot;
-    if (!plot_open(r, &plot, "exact-far", 760, 380)) {
-        return false;
-    }
-    fprintf(plot.script,
-            "set logscale xy\nset xrange [3e2:1e19]\nset yrange [5e-6:2]\n"
-            "set format y '10^{%%T}'\nset format x '10^{%%T}'\nset xtics 1e3,1e3,1e15\n"
-            "unset mxtics\nunset mytics\n"
-            "set xlabel 'distance of the scene from the origin, in sizes of the scene'\n"
-            "set ylabel 'share of wrong answers'\n"
-            "d(s) = s[1:6] eq 'shift-' ? 10**real(s[9:]) : NaN\n"
-            "set label 1 \"Embree, judged by\\nthe scene as given\" at 2e15,0.8 tc rgb '#882255'\n"
-            "set label 2 \"Embree, judged by\\nthe scene rounded\" at 2e15,2.5e-2 tc rgb "
-            "'#b56a93'\n"
-            "set label 3 \"%s\" at 2e15,3e-4 tc rgb '#0072B2'\n"
-            "plot '%s' using ($9 == 0 ? d(strcol(1)) : NaN):(0.5*$11) with points pt 11 ps 0.6 lc "
-            "rgb '#999999', ",
-            r->wrong == 0 ? "all kinds of ours:\\nnone wrong (< 1/N)" : "hoo", csv_name);
-    for (size_t i = 0; i < DRAWN_PEERS; i++) {
-        const struct drawn_peer *p = &drawn_peers[i];
-        fprintf(
-            plot.script,
-            "'%s' using ((strcol(2)[13:] eq '%s' && strcol(4) eq '%s') ? d(strcol(1)) : NaN):11 "
-            "with %s %s, ",
-            csv_name, p->name, p->input, i < 2 ? "linespoints" : "points", p->style);
-    }
-    fprintf(plot.script,
-            "'%s' using (strcol(2) eq 'hoo' ? d(strcol(1)) : NaN):11 with points ps 1 %s\n",
-            csv_name, plot_style("hoo"));
-    return plot_close(r, &plot);
-}
-
-static bool write_page(struct reporting *r, const comparison *all)
-{
-    page_title(r, "exact", "Exact answers: what is wrong, against time per ray");
-    page_text(
-        r,
-        "Every point is one structure on one scene. A wrong answer names another object than the "
-        "right one, or none, or misses a place that it must hit; what is right is computed in "
-        "113 bits (twice the precision of double), and rays that double cannot decide are not "
-        "counted. Ours must also give the distance within the proven bound and the very bits of "
-        "linear search. Embree, by Intel, works in single precision, eight triangles at a time: "
-        "dark crosses compare it with the scene as the user gave it in double, light ones with "
-        "the scene rounded to single precision, which is all that it was given.");
-    char caption[1000], peer[400] = "no peer is built in to compare with.";
-    if (all->scenes > 0) {
-        snprintf(
-            peer, sizeof peer,
-            "time. On the harmless first panel the fastest of ours takes %.1f times as long as "
-            "the fastest of Embree's four modes, and on %zu of the %zu scenes one of those has "
-            "fewer than one wrong answer in a thousand. Where Embree is far left at a high "
-            "share it sees little of the scene.",
-            all->ratio, all->lower, all->scenes);
-    }
-    snprintf(caption, sizeof caption,
-             "Time per ray (right is slower) against the share of wrong answers (down is better). "
-             "Where none of N answers was wrong, the point stands at 1/N with a small triangle "
-             "below: read "
-             "“&lt; 1/N”. <b>Where we lose:</b> %s",
-             peer);
-    return page_plot(r, "exact", csv_name, caption) &&
-           page_plot(r, "exact-build", csv_name,
-                     "The same with the build: seconds for the build and a million rays. "
-                     "<b>Where we lose:</b> the same factor; builds of scenes this small do "
-                     "not count.") &&
-           page_plot(r, "exact-far", csv_name,
-                     "The same 300 triangles, moved away from the origin: distance against "
-                     "the share of wrong answers. Single precision has 24 bits: from 10<sup>7"
-                     "</sup> on nothing is left of the scene. Ours keeps its promise in what "
-                     "double has left.");
+    return page_set(r, "exact", " ") &&
+           (all->scenes == 0 || (page_set(r, "exact.ratio", "%.1f", all->ratio) &&
+                                 page_set(r, "exact.lower", "%zu", all->lower) &&
+                                 page_set(r, "exact.scenes", "%zu", all->scenes)));
 }
 
 bool report_exact(struct reporting *r, double seconds)
@@ -326,7 +174,5 @@ bool report_exact(struct reporting *r, double seconds)
             return false;
         }
     }
-    return report_csv_close(r, csv, csv_name) && draw(r, "exact", 12, "ns per ray", "[20:1e5]") &&
-           draw(r, "exact-build", 14, "seconds, build and 10⁶ rays", "[0.02:100]") &&
-           draw_distance(r) && write_page(r, &all);
+    return report_csv_close(r, csv, csv_name) && draw(r) && fill_page(r, &all);
 }

@@ -84,7 +84,7 @@ static void make_rays(struct exam *e, const struct exam_subject *subject, size_t
             *ray = integer_ray(e->scene, &d, &e->exact[e->set.count]);
             e->set.count++;
         } else {
-            *ray = subject->family->make(e->scene, e->linear, &d, i);
+            *ray = subject->family->make(&e->scene->target, e->linear, &d, i);
             e->set.count++;
         }
     }

@@ -3,10 +3,10 @@
  * Counting wrong answers: rays of the catalogue, what is right for each, and contenders that are
  * asked.
  *
- * What is right comes from the search in 113 bits (cases/oracle.h), from the closedness of a mesh
- * (cases/leaks.h: every ray must hit), or from linear search where a scene holds host objects. A
- * ray that no judge decides counts for nobody. Ours must name the right primitive, with t within
- * the bound of 113 bits; a peer in single precision need only name the primitive.
+ * What is right comes from the search in 113 bits (catalogue/oracle.h), from the closedness of a
+ * mesh (catalogue/leaks.h: every ray must hit), or from linear search where a scene holds host
+ * objects. A ray that no judge decides counts for nobody. Ours must name the right primitive, with
+ * t within the bound of 113 bits; a peer in single precision need only name the primitive.
  *
  * Peers are judged twice: by the scene as the user gave it, and by the scene and rays rounded to
  * single precision, which is what they were given.
@@ -33,7 +33,7 @@ struct exam_subject {
     const struct ray_family *family; /* of rays at it */
     const struct leak_mesh *leaks;   /* scene and rays that must hit; NULL: maker */
     const struct known *known;       /* scene, ray and answer of a report; NULL: maker */
-    bool integers;                   /* rays of cases/lattice.h, judged by integers */
+    bool integers;                   /* rays of catalogue/lattice.h, judged by integers */
     uint64_t seed;                   /* 0 stands for 1 */
 };
 

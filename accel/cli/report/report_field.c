@@ -13,7 +13,7 @@ static double length_of(const struct test_scene *s)
 {
     double square = 0.0;
     for (int k = 0; k < 3; k++) {
-        square += pow(s->box.hi[k] - s->box.lo[k], 2.0);
+        square += pow(s->target.box.hi[k] - s->target.box.lo[k], 2.0);
     }
     return sqrt(square);
 }

@@ -23,6 +23,7 @@ enum {
     MOST_KINDS = 32
 };
 
+static const char csv_name[] = "light.csv";
 static const char columns[] =
     "scene,estimator,radius,photons,seeds,structure,build_seconds,photon_seconds,estimate_seconds,"
     "seconds,rmse,bias,bias_seen,floor,hash";
@@ -285,22 +286,31 @@ static bool run_study(struct reporting *r, FILE *csv, bool plates, double second
     return fine;
 }
 
+/* The structure of the plot of radii: hoo, where it is there. */
+static bool draw(struct reporting *r)
+{
+    return plot_draw(r, "light", "light", PLOT_KINDS, "by_structure = 1\none = ''\n") &&
+           plot_draw(r, "light-radius", "light", PLOT_KINDS,
+                     "by_structure = 0\n"
+                     "one = strstrt(' '.forms, ' hoo ') ? 'hoo' : word(forms, 1)\n") &&
+           plot_draw(r, "light-parts", "light-parts", PLOT_KINDS, "");
+}
+
 bool report_light(struct reporting *r, double seconds)
 {
-    if (!report_has_structures(r, "light", ACCEL_LIGHT_TITLE)) {
+    if (!report_has_structures(r)) {
         return true;
     }
-    FILE *csv = report_csv(r, ACCEL_LIGHT_CSV, columns);
+    FILE *csv = report_csv(r, csv_name, columns);
     if (csv == NULL) {
         return false;
     }
-    char note[600] = "What the time of the largest run goes into, for each structure (discs of the "
-                     "middle radius). <b>Where we lose:</b>";
+    char note[600] = "";
     const bool fine = run_study(r, csv, true, 0.35 * seconds, note, sizeof note) &&
                       run_study(r, csv, false, 0.65 * seconds, note, sizeof note);
     if (!fine) {
         fclose(csv);
         return false;
     }
-    return report_csv_close(r, csv, ACCEL_LIGHT_CSV) && light_page(r, note);
+    return report_csv_close(r, csv, csv_name) && draw(r) && page_set(r, "light", "%s", note);
 }

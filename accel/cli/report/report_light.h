@@ -53,10 +53,4 @@ struct light_row {
     double bias_seen; /* what of bias can be told from noise: its standard error */
 };
 
-/* Draws the plots and writes the page; `slowest` is the caption of the last plot. */
-bool light_page(struct reporting *r, const char *slowest);
-
-#define ACCEL_LIGHT_CSV   "light.csv"
-#define ACCEL_LIGHT_TITLE "Illumination: error of photons, against all of their time"
-
 #endif

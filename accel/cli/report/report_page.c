@@ -1,134 +1,201 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The page: plain HTML with its plots inside, so that one file can be passed on.
+ * The page: page.html with its gaps filled, plain HTML with its plots inside, so that one file can
+ * be passed on.
+ *
+ * A gap is {{KEY}}, which becomes the value of the key, or {{svg NAME}}, the plot NAME.svg. What is
+ * between {{if KEY}}, or {{unless KEY}}, and its {{end}} is there where the key has a value, or
+ * none.
  */
 #include "report.h"
 
+#include "report_text.h"
 #include "tool/machine.h"
 
+#include <errno.h>
 #include <stdarg.h>
+#include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
-/* The first bytes are what report_folder.c knows a report by. */
-static const char head[] =
-    "<!DOCTYPE html><!-- accel report -->\n<html lang=\"en\"><head><meta charset=\"utf-8\"/>\n"
-    "<title>accel: error against run time</title>\n<style>\n"
-    "body{font:16px/1.5 system-ui,sans-serif;color:#222;max-width:62rem;margin:2rem auto;"
-    "padding:0 1rem}\n"
-    "h1{font-size:1.7rem}h2{font-size:1.25rem;margin-top:2.5rem;border-top:1px solid #ddd;"
-    "padding-top:1rem}\n"
-    "figure{margin:1.2rem 0}figure svg{max-width:100%;height:auto}figcaption{color:#444}\n"
-    "table{border-collapse:collapse;font-size:.85rem}td,th{border-bottom:1px solid #ddd;"
-    "padding:.25rem .5rem;text-align:left;vertical-align:top}td.n,th.n{text-align:right}\n"
-    "td.bad{background:#f6dfe6}td.good{background:#e2f0ea}code{background:#f4f4f4}\n"
-    ".told{color:#777;font-style:italic}small{color:#555}\n"
-    "</style></head><body>\n";
-
-void page_escaped(struct reporting *r, const char *text)
+void page_escaped(FILE *to, const char *text)
 {
     for (; *text != '\0'; text++) {
         switch (*text) {
         case '&':
-            fputs("&amp;", r->page);
+            fputs("&amp;", to);
             break;
         case '<':
-            fputs("&lt;", r->page);
+            fputs("&lt;", to);
             break;
         case '>':
-            fputs("&gt;", r->page);
+            fputs("&gt;", to);
             break;
         default:
-            fputc(*text, r->page);
+            fputc(*text, to);
         }
     }
 }
 
-void page_open(struct reporting *r)
+/* ------------------------------------------------------------------- values ---- */
+
+FILE *page_value(struct reporting *r, const char *key)
+{
+    struct page *p = &r->page;
+    if (p->count == PAGE_VALUES) {
+        return NULL;
+    }
+    struct page_value *v = &p->values[p->count];
+    *v = (struct page_value){.key = key};
+    FILE *stream = open_memstream(&v->text, &v->length);
+    p->count += stream != NULL;
+    return stream;
+}
+
+bool page_value_end(struct reporting *r, FILE *value)
+{
+    if (value != NULL && fclose(value) == 0) {
+        return true;
+    }
+    complain(r->command, "no memory for the page; nothing was written");
+    return false;
+}
+
+bool page_set(struct reporting *r, const char *key, const char *format, ...)
+{
+    FILE *value = page_value(r, key);
+    if (value != NULL) {
+        va_list list;
+        va_start(list, format);
+        vfprintf(value, format, list);
+        va_end(list);
+    }
+    return page_value_end(r, value);
+}
+
+static const char *find_value(const struct reporting *r, const char *key, size_t length)
+{
+    for (size_t i = 0; i < r->page.count; i++) {
+        const struct page_value *v = &r->page.values[i];
+        if (strlen(v->key) == length && memcmp(v->key, key, length) == 0) {
+            return v->text;
+        }
+    }
+    return NULL;
+}
+
+/* --------------------------------------------------------------------- page ---- */
+
+/* The SVG element of a file, without what stands before it. */
+static bool copy_svg(struct reporting *r, const char *name, size_t length)
+{
+    char file[64], line[4096];
+    snprintf(file, sizeof file, "%.*s.svg", (int)length, name);
+    FILE *svg = folder_read(&r->folder, file);
+    bool inside = false;
+    while (svg != NULL && fgets(line, sizeof line, svg) != NULL) {
+        const char *start = inside ? line : strstr(line, "<svg");
+        if (start != NULL) {
+            inside = true;
+            fputs(start, r->page.file);
+        }
+    }
+    if (svg != NULL) {
+        fclose(svg);
+    }
+    if (!inside) {
+        complain(r->command, "gnuplot made no %s; nothing was written", file);
+    }
+    return inside;
+}
+
+static bool begins(const char *text, const char *word)
+{
+    return strncmp(text, word, strlen(word)) == 0;
+}
+
+/* Writes the template from *at on, to its end or behind the {{end}} of this part; where it is not
+ * `shown` only moves *at. */
+static bool fill(struct reporting *r, const char **at, bool shown)
+{
+    bool fine = true;
+    for (const char *gap; fine && (gap = strstr(*at, "{{")) != NULL;) {
+        const char *key = gap + 2, *end = strstr(key, "}}");
+        if (shown) {
+            fwrite(*at, 1, (size_t)(gap - *at), r->page.file);
+        }
+        *at = end + 2;
+        if (begins(key, "end")) {
+            return true;
+        }
+        if (begins(key, "if ") || begins(key, "unless ")) {
+            const char *name = strchr(key, ' ') + 1;
+            const bool there = find_value(r, name, (size_t)(end - name)) != NULL;
+            fine = fill(r, at, shown && there == begins(key, "if "));
+        } else if (shown && begins(key, "svg ")) {
+            fine = copy_svg(r, key + 4, (size_t)(end - key - 4));
+        } else if (shown) {
+            const char *value = find_value(r, key, (size_t)(end - key));
+            fputs(value != NULL ? value : "", r->page.file);
+        }
+    }
+    return fine;
+}
+
+static bool describe_run(struct reporting *r)
 {
     char processor[256], day[40];
     const time_t now = time(NULL);
     struct tm parts;
     machine_processor(processor, sizeof processor);
     strftime(day, sizeof day, "%Y-%m-%d %H:%M UTC", gmtime_r(&now, &parts));
-    fputs(head, r->page);
-    fprintf(r->page, "<h1>accel: error against run time</h1>\n<p><small>");
-    page_escaped(r, processor);
-    fprintf(r->page, "<br/>");
-    page_escaped(r, machine_build());
-    fprintf(r->page,
-            "<br/>%s; time for the whole: about %.0f seconds; made by <code>accel report</code>"
-            "</small></p>\n",
-            day, r->seconds);
-    page_text(
-        r, "A ray tracer asks one question again and again: <em>which object does this ray hit "
-           "first?</em> An acceleration structure answers it without testing every object. "
-           "<code>accel</code> is a library of such structures: a uniform <b>grid</b>, a hierarchy "
-           "of grids (<b>hug</b>), one <b>octree</b>, a hierarchy of octrees over clusters "
-           "(<b>hoo</b>), a kd-tree (<b>bsp</b>), a hierarchy of boxes (<b>bvh</b>), and "
-           "<b>auto</b>, which picks one. It claims that all give the answer of a search through "
-           "every object (<b>linear</b>), bit for bit, whatever the scene. This page measures what "
-           "is wrong, and what being right costs. Times are processor time of one thread.");
+    FILE *value = page_value(r, "processor");
+    if (value != NULL) {
+        page_escaped(value, processor);
+    }
+    if (!page_value_end(r, value)) {
+        return false;
+    }
+    value = page_value(r, "build");
+    if (value != NULL) {
+        page_escaped(value, machine_build());
+    }
+    return page_value_end(r, value) && page_set(r, "day", "%s", day) &&
+           page_set(r, "seconds", "%.0f", r->seconds);
 }
 
-bool page_close(struct reporting *r)
+bool page_open(struct reporting *r)
 {
-    fprintf(r->page, "</body></html>\n");
-    folder_list(&r->folder, r->page);
-    const char *trouble = folder_close(&r->folder, r->page);
-    r->page = NULL;
+    r->page.file = folder_write(&r->folder, "index.html");
+    if (r->page.file == NULL) {
+        complain(r->command, "cannot write index.html: %s; nothing was written", strerror(errno));
+    }
+    return r->page.file != NULL;
+}
+
+bool page_write(struct reporting *r)
+{
+    const char *at = report_text("page.html");
+    if (!describe_run(r) || !fill(r, &at, true)) {
+        return false;
+    }
+    fputs(at, r->page.file);
+    folder_list(&r->folder, r->page.file);
+    const char *trouble = folder_close(&r->folder, r->page.file);
+    r->page.file = NULL;
     if (trouble != NULL) {
         complain(r->command, "cannot write index.html: %s; nothing was written", trouble);
     }
     return trouble == NULL;
 }
 
-void page_title(struct reporting *r, const char *id, const char *title)
+void page_free(struct reporting *r)
 {
-    fprintf(r->page, "<h2 id=\"%s\">%s</h2>\n", id, title);
-}
-
-void page_text(struct reporting *r, const char *format, ...)
-{
-    va_list list;
-    va_start(list, format);
-    fprintf(r->page, "<p>");
-    vfprintf(r->page, format, list);
-    fprintf(r->page, "</p>\n");
-    va_end(list);
-}
-
-/* The SVG element of a file, without what stands before it. */
-static bool copy_svg(struct reporting *r, FILE *svg)
-{
-    char line[4096];
-    bool inside = false;
-    while (fgets(line, sizeof line, svg) != NULL) {
-        const char *start = inside ? line : strstr(line, "<svg");
-        if (start != NULL) {
-            inside = true;
-            fputs(start, r->page);
-        }
+    if (r->page.file != NULL) {
+        fclose(r->page.file);
     }
-    return inside;
-}
-
-bool page_plot(struct reporting *r, const char *name, const char *csv, const char *caption)
-{
-    char file[64];
-    snprintf(file, sizeof file, "%s.svg", name);
-    FILE *svg = folder_read(&r->folder, file);
-    fprintf(r->page, "<figure id=\"%s\">\n", name);
-    const bool fine = svg != NULL && copy_svg(r, svg);
-    if (svg != NULL) {
-        fclose(svg);
+    for (size_t i = 0; i < r->page.count; i++) {
+        free(r->page.values[i].text);
     }
-    fprintf(r->page,
-            "<figcaption>%s <small>(<a href=\"%s.svg\">plot</a>, <a href=\"%s\">figures</a>)"
-            "</small></figcaption></figure>\n",
-            caption, name, csv);
-    if (!fine) {
-        complain(r->command, "gnuplot made no %s; nothing was written", file);
-    }
-    return fine;
+    r->page = (struct page){.file = NULL};
 }

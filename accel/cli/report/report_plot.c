@@ -2,13 +2,12 @@
  *
  * Plots by gnuplot, which runs in the report's folder to read the figures there. Its program, the
  * plot and what it complains of are in memory: of the files of the folder none is written by
- * others, so that each knows what became of it.
- *
- * Colours: Okabe and Ito's, which the colour-blind tell apart; each kind has a shape of its own
- * too.
+ * others, so that each knows what became of it. Programs: plots/style.gnuplot, what the section
+ * gives, and one of plots/.
  */
 #include "report.h"
-#include "report_svg.h"
+
+#include "report_text.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -61,38 +60,51 @@ const char *plot_missing(void)
     return fine ? NULL : "gnuplot cannot be run, which draws the plots (Debian: gnuplot-nox)";
 }
 
-static void write_style(const struct plot *plot, int width, int height)
+const char *report_text(const char *name)
 {
-    fprintf(plot->script,
-            "set terminal svg size %d,%d dynamic enhanced font 'Helvetica,Arial,sans-serif,13' "
-            "background rgb 'white'\n"
-            "set encoding utf8\n"
-            "set datafile separator ','\n"
-            "set datafile missing NaN\n"
-            "set border 3 lc rgb '#555555'\n"
-            "set tics nomirror out scale 0.6 textcolor rgb '#333333'\n"
-            "set grid lc rgb '#dddddd' lt 1 lw 0.6\n"
-            "set key noautotitle textcolor rgb '#222222'\n"
-            "set pointsize 0.75\n"
-            "set samples 2\n"
-            "none = '#888888'\n",
-            width, height);
+    const struct report_text *t = report_texts;
+    while (strcmp(t->name, name) != 0) {
+        t++;
+    }
+    return (const char *)t->text;
 }
 
-bool plot_open(struct reporting *r, struct plot *plot, const char *name, int width, int height)
+/* The names of what is drawn, with blanks between. */
+static void write_forms(FILE *script, enum plot_forms which)
 {
-    *plot = (struct plot){.script = NULL};
-    snprintf(plot->name, sizeof plot->name, "%s", name);
-    const int memory = memfd_create("script", MFD_CLOEXEC);
-    plot->script = memory < 0 ? NULL : fdopen(memory, "w+");
-    if (plot->script == NULL) {
-        complain(r->command, "no memory for %s.svg: %s; nothing was written", name,
-                 strerror(errno));
-        close(memory);
-        return false;
+    const struct forms forms = forms_of_kinds(NULL);
+    size_t kinds;
+    const accel_kind_info *const *kind = accel_kinds(&kinds);
+    fprintf(script, "forms = \"");
+    for (size_t i = 0; which == PLOT_FORMS && i < forms.count; i++) {
+        fprintf(script, "%s ", forms.at[i]);
     }
-    write_style(plot, width, height);
-    return true;
+    for (size_t k = 0; which == PLOT_KINDS && k < kinds; k++) {
+        if (strcmp(kind[k]->name, "linear") != 0) {
+            fprintf(script, "%s ", kind[k]->name);
+        }
+    }
+    fprintf(script, "\"\n");
+}
+
+/* gnuplot's program; NULL: no memory. */
+static FILE *write_script(const char *program, enum plot_forms forms, const char *given)
+{
+    char file[64];
+    const int memory = memfd_create("script", MFD_CLOEXEC);
+    FILE *script = memory < 0 ? NULL : fdopen(memory, "w+");
+    if (script == NULL) {
+        close(memory);
+        return NULL;
+    }
+    snprintf(file, sizeof file, "%s.gnuplot", program);
+    write_forms(script, forms);
+    fprintf(script, "%s%s\n%s", report_text("style.gnuplot"), given, report_text(file));
+    if (fflush(script) != 0 || lseek(memory, 0, SEEK_SET) != 0) {
+        fclose(script);
+        return NULL;
+    }
+    return script;
 }
 
 /* All that is in a file of memory, ended by a zero; NULL where that does not fit. To be freed. */
@@ -130,12 +142,10 @@ static bool is_whole(const char *svg)
     return end != NULL && end[6 + strspn(end + 6, "\n")] == '\0';
 }
 
-/* Writes the plot, smaller than gnuplot made it. */
-static bool write_svg(struct reporting *r, const struct plot *plot, char *svg)
+static bool write_svg(struct reporting *r, const char *plot, const char *svg)
 {
     char name[48];
-    snprintf(name, sizeof name, "%s.svg", plot->name);
-    svg_shrink(svg);
+    snprintf(name, sizeof name, "%s.svg", plot);
     FILE *file = folder_write(&r->folder, name);
     const char *trouble = strerror(errno);
     if (file != NULL) {
@@ -148,50 +158,31 @@ static bool write_svg(struct reporting *r, const struct plot *plot, char *svg)
     return trouble == NULL;
 }
 
-bool plot_close(struct reporting *r, struct plot *plot)
+bool plot_draw(struct reporting *r, const char *name, const char *program, enum plot_forms forms,
+               const char *given)
 {
-    const streams s = {{fileno(plot->script), memfd_create("plot", MFD_CLOEXEC),
+    FILE *script = write_script(program, forms, given);
+    if (script == NULL) {
+        complain(r->command, "no memory for %s.svg: %s; nothing was written", name,
+                 strerror(errno));
+        return false;
+    }
+    const streams s = {{fileno(script), memfd_create("plot", MFD_CLOEXEC),
                         memfd_create("complaints", MFD_CLOEXEC)}};
-    bool fine = fflush(plot->script) == 0 && lseek(s.of[0], 0, SEEK_SET) == 0 &&
-                gnuplot(r->folder.temporary, &s, "-") == 0;
+    bool fine = gnuplot(r->folder.temporary, &s, "-") == 0;
     char *svg = read_memory(s.of[1]), *complaints = read_memory(s.of[2]);
     fine = fine && svg != NULL && is_whole(svg);
     if (fine) {
-        fine = write_svg(r, plot, svg);
+        fine = write_svg(r, name, svg);
     } else {
         char line[300];
         first_complaint(complaints, line);
-        complain(r->command, "gnuplot failed at %s.svg: %s; nothing was written", plot->name, line);
+        complain(r->command, "gnuplot failed at %s.svg: %s; nothing was written", name, line);
     }
     free(svg);
     free(complaints);
-    fclose(plot->script);
+    fclose(script);
     close(s.of[1]);
     close(s.of[2]);
     return fine;
-}
-
-/* Full for a kind as it comes, hollow for another form of it. */
-static const struct style {
-    const char *name, *full, *hollow;
-} styles[] = {
-    {"linear", "lc rgb '#777777' pt 1", "lc rgb '#777777' pt 1"},
-    {"grid", "lc rgb '#E69F00' pt 5", "lc rgb '#E69F00' pt 4"},
-    {"hug", "lc rgb '#D55E00' pt 13", "lc rgb '#D55E00' pt 12"},
-    {"octree", "lc rgb '#56B4E9' pt 9", "lc rgb '#56B4E9' pt 8"},
-    {"hoo", "lc rgb '#0072B2' pt 7", "lc rgb '#0072B2' pt 6"},
-    {"bsp", "lc rgb '#009E73' pt 11", "lc rgb '#009E73' pt 10"},
-    {"bvh", "lc rgb '#CC79A7' pt 15", "lc rgb '#CC79A7' pt 14"},
-    {"auto", "lc rgb '#000000' pt 3", "lc rgb '#000000' pt 3"},
-};
-
-const char *plot_style(const char *name)
-{
-    const size_t length = strcspn(name, ":");
-    for (size_t i = 0; i < sizeof styles / sizeof styles[0]; i++) {
-        if (strlen(styles[i].name) == length && strncmp(name, styles[i].name, length) == 0) {
-            return name[length] == ':' ? styles[i].hollow : styles[i].full;
-        }
-    }
-    return strstr(name, "robust") != NULL ? "lc rgb '#882255' pt 2" : "lc rgb '#AA4499' pt 2";
 }

@@ -11,13 +11,13 @@
  */
 #include "report_light.h"
 
-#include "scenes/camera.h"
+#include "camera.h"
 #include "tool/threads.h"
 #include "photons/photons_surface.h"
 #include "photons/photons_vector.h"
-#include "scenes/plates.h"
-#include "scenes/scatter.h"
-#include "scenes/scene_build.h"
+#include "photons/plates.h"
+#include "photons/scatter.h"
+#include "loaded.h"
 
 #include <stdatomic.h>
 #include <stdlib.h>

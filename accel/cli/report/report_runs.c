@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "report_runs.h"
 
-#include "scenes/judge.h"
+#include "answers.h"
 #include "tool/machine.h"
 #include "photons/photons.h"
 #include "photons/photons_surface.h"
 #include "tool/quantile.h"
-#include "scenes/scatter.h"
+#include "photons/scatter.h"
 
 #include <stdlib.h>
 

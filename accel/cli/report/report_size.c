@@ -5,10 +5,10 @@
  */
 #include "report_runs.h"
 
+#include <inttypes.h>
 #include <string.h>
 
 static const char csv_name[] = "size.csv", gap_name[] = "gap.csv";
-static const char title[] = "Work against size, against gaps; memory";
 static const char columns[] = "scene,primitives,contender,peer,rays,wrong,ns_per_ray,nodes,tests,"
                               "build_seconds,seconds_with_build,bytes_per_primitive";
 static const char gap_columns[] =
@@ -137,113 +137,6 @@ static bool run_gaps(struct reporting *r, FILE *csv, double seconds, summary *s)
     return true;
 }
 
-/* -------------------------------------------------------------------- plots ---- */
-
-/* What a panel shows. */
-struct panel {
-    const char *title; /* its unit */
-    const char *value; /* by gnuplot, of the columns */
-    bool peers;        /* known of peers too */
-};
-
-static const struct panel size_panels[] = {
-    {"nodes visited per ray", "$8", false},
-    {"triangles tested per ray", "$9", false},
-    {"ns per ray", "$7", true},
-    {"build, ns per triangle", "1e9*$10/$2", true},
-    {"build and 10⁶ rays, seconds", "$11", true},
-    {"bytes per triangle", "$12", true},
-};
-
-static const struct panel gap_panels[] = {
-    {"nodes visited per ray", "$8", false},
-    {"triangles tested per ray", "$9", false},
-    {"ns per ray", "$7", true},
-};
-
-static const struct drawn_peer {
-    const char *name, *title, *style;
-} drawn_peers[] = {
-    {"medium", "Embree fast", "lc rgb '#882255' pt 1"},
-    {"medium robust", "Embree robust", "lc rgb '#882255' pt 2"},
-};
-
-static void draw_panel(FILE *script, const char *csv, const struct panel *p, const char *x)
-{
-    const struct forms forms = forms_of_kinds(NULL);
-    fprintf(script, "set title '%s' offset 0,-0.5\nplot ", p->title);
-    for (size_t i = 0; p->peers && i < 2; i++) {
-        fprintf(script, "'%s' using (strcol(3)[13:] eq '%s' ? %s : NaN):(%s) with linespoints %s, ",
-                csv, drawn_peers[i].name, x, p->value, drawn_peers[i].style);
-    }
-    for (size_t i = 0; i < forms.count; i++) {
-        fprintf(script, "'%s' using (strcol(3) eq '%s' ? %s : NaN):(%s) with linespoints %s, ", csv,
-                forms.at[i], x, p->value, plot_style(forms.at[i]));
-    }
-    fprintf(script, "NaN\n");
-}
-
-static void draw_key(FILE *script, double height)
-{
-    const struct forms forms = forms_of_kinds(NULL);
-    fprintf(script,
-            "unset title\nunset xlabel\nunset ylabel\nunset border\nunset tics\nunset grid\n"
-            "unset logscale\nset xrange [0:1]\nset yrange [0:1]\nset origin 0.05,0\n"
-            "set size 0.9,%g\nset key horizontal Left reverse center center samplen 2\nplot ",
-            height);
-    for (size_t i = 0; i < 2; i++) {
-        fprintf(script, "NaN with linespoints %s title '%s', ", drawn_peers[i].style,
-                drawn_peers[i].title);
-    }
-    for (size_t i = 0; i < forms.count; i++) {
-        fprintf(script, "NaN with linespoints %s title '%s', ", plot_style(forms.at[i]),
-                forms.at[i]);
-    }
-    fprintf(script, "NaN\nunset multiplot\n");
-}
-
-static void start(FILE *script)
-{
-    fprintf(script, "set multiplot\nset logscale xy\nunset mxtics\nunset mytics\nset tmargin 0\n"
-                    "set bmargin 0\nset lmargin 0\nset rmargin 0\nset format y '10^{%%T}'\n");
-}
-
-static bool draw_size(struct reporting *r)
-{
-    struct plot plot;
-    if (!plot_open(r, &plot, "size", 960, 640)) {
-        return false;
-    }
-    start(plot.script);
-    fprintf(plot.script, "set xrange [4e2:2e7]\nset format x '10^{%%T}'\nset size 0.25,0.3\n");
-    for (size_t i = 0; i < 6; i++) {
-        fprintf(plot.script, "set origin %g,%g\nset xlabel '%s' offset 0,0.5\n",
-                0.06 + 0.32 * (double)(i % 3), i < 3 ? 0.64 : 0.23, i < 3 ? "" : "triangles");
-        draw_panel(plot.script, csv_name, &size_panels[i], "$2");
-    }
-    draw_key(plot.script, 0.13);
-    return plot_close(r, &plot);
-}
-
-static bool draw_gap(struct reporting *r)
-{
-    struct plot plot;
-    if (!plot_open(r, &plot, "gap", 960, 400)) {
-        return false;
-    }
-    start(plot.script);
-    /* a gap of 0 has no logarithm: it stands at 1/4 */
-    fprintf(plot.script, "set xrange [0.18:400]\nset xtics ('0' 0.25,'1' 1,'4' 4,'16' 16,'64' 64,"
-                         "'256' 256)\nset size 0.25,0.46\n");
-    for (size_t i = 0; i < 3; i++) {
-        fprintf(plot.script, "set origin %g,0.42\nset xlabel 'gap, cluster sides' offset 0,0.3\n",
-                0.06 + 0.32 * (double)i);
-        draw_panel(plot.script, gap_name, &gap_panels[i], "($2 > 0 ? $2 : 0.25)");
-    }
-    draw_key(plot.script, 0.2);
-    return plot_close(r, &plot);
-}
-
 /* How a peer compares: nothing where there is none. */
 static void write_peer(char *to, size_t capacity, const summary *s)
 {
@@ -255,32 +148,19 @@ static void write_peer(char *to, size_t capacity, const summary *s)
     }
 }
 
-static bool write_page(struct reporting *r, const summary *size, const summary *gap)
+static bool fill_page(struct reporting *r, const summary *size, const summary *gap)
 {
-    char caption[1200], gap_caption[1200], peer[300];
-    write_peer(peer, sizeof peer, size);
-    snprintf(caption, sizeof caption,
-             "Number of triangles against work for each ray, time, build, both together, and "
-             "memory. A hierarchy needs a few nodes more for ten times the triangles. <b>Where we "
-             "lose:</b> at %llu triangles,%s The slowest of our builds is <code>%s</code> with "
-             "%.2f s; <code>%s</code> builds in %.2f s.",
-             (unsigned long long)size->primitives, peer, size->slowest_build.name,
-             size->slowest_build.build, size->fastest.name, size->fastest.build);
-    write_peer(peer, sizeof peer, gap);
-    snprintf(gap_caption, sizeof gap_caption,
-             "The gap between two clusters against work for each ray. <b>Where we lose:</b> fewer "
-             "nodes are not less time by themselves: compare the first panel with the last. At the "
-             "largest gap,%s",
-             peer);
-    page_title(r, "size", title);
-    page_text(r,
-              "The same scene, nine teapots and a floor, cut into more and more triangles; "
-              "and two clusters of cubes, farther and farther apart, as in the first table of "
-              "the paper on hierarchies of octrees. Rays are diffuse bounces; for the gap "
-              "photons from a light over each cluster, half of them reflected. Linear search "
-              "is asked up to %d triangles; of the larger scenes it judges a sample.",
-              LINEAR_SIZE);
-    return page_plot(r, "size", csv_name, caption) && page_plot(r, "gap", gap_name, gap_caption);
+    char size_peer[300], gap_peer[300];
+    write_peer(size_peer, sizeof size_peer, size);
+    write_peer(gap_peer, sizeof gap_peer, gap);
+    return page_set(r, "size", "%" PRIu64, size->primitives) &&
+           page_set(r, "size.linear", "%d", LINEAR_SIZE) &&
+           page_set(r, "size.peer", "%s", size_peer) &&
+           page_set(r, "size.slowest", "%s", size->slowest_build.name) &&
+           page_set(r, "size.slowest.seconds", "%.2f", size->slowest_build.build) &&
+           page_set(r, "size.fastest", "%s", size->fastest.name) &&
+           page_set(r, "size.fastest.seconds", "%.2f", size->fastest.build) &&
+           page_set(r, "gap.peer", "%s", gap_peer);
 }
 
 static bool write_figures(struct reporting *r, const char *name, const char *names,
@@ -300,11 +180,12 @@ static bool write_figures(struct reporting *r, const char *name, const char *nam
 
 bool report_size(struct reporting *r, double seconds)
 {
-    if (!report_has_structures(r, "size", title)) {
+    if (!report_has_structures(r)) {
         return true;
     }
     summary gap, size;
     return write_figures(r, gap_name, gap_columns, run_gaps, 0.2 * seconds, &gap) &&
-           write_figures(r, csv_name, columns, run_sizes, 0.8 * seconds, &size) && draw_size(r) &&
-           draw_gap(r) && write_page(r, &size, &gap);
+           write_figures(r, csv_name, columns, run_sizes, 0.8 * seconds, &size) &&
+           plot_draw(r, "size", "size", PLOT_FORMS, "") &&
+           plot_draw(r, "gap", "gap", PLOT_FORMS, "") && fill_page(r, &size, &gap);
 }

@@ -1,12 +1,15 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The list of built-in scenes and the parser of their options. A word before ':' that names a
+ * SCENE: a name of the catalogue with its options, or a file. A word before ':' that names a
  * built-in scene wins over a file of that name: write ./teapots for the file.
  */
-#include "scene_build.h"
+#include "scene.h"
 
+#include "catalogue.h"
+#include "generator.h"
+#include "core/error.h"
+#include "core/words.h"
 #include "tool/file.h"
-#include "tool/words.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -15,80 +18,63 @@
 
 enum { MOST_OPTIONS = 8 };
 
-static const struct generator *const generators[] = {
-    &generator_cubes,  &generator_teapots, &generator_stadium, &generator_soup,  &generator_spheres,
-    &generator_nested, &generator_same,    &generator_one,     &generator_empty,
+static const accel_option case_options[] = {
+    {.key = "seed",
+     .meaning = "another number, another scene, where it is random",
+     .min = 0.0,
+     .max = 0x1p53,
+     .standard = 1.0,
+     .whole = true},
 };
 
-enum { GENERATORS = sizeof generators / sizeof generators[0] };
+/* What a SCENE means: a generator, a case, or a file where both are NULL. */
+typedef struct meaning {
+    const struct generator *generator;
+    const struct scene_maker *maker;
+    accel_kind_info info;        /* of either */
+    double values[MOST_OPTIONS]; /* of its options */
+} meaning;
 
-const accel_kind_info *const *scene_kinds(size_t *count)
+/* False: no built-in scene has this name. */
+static bool find_name(meaning *m, struct word name)
 {
-    static const accel_kind_info *const kinds[GENERATORS] = {
-        &generator_cubes.info, &generator_teapots.info, &generator_stadium.info,
-        &generator_soup.info,  &generator_spheres.info, &generator_nested.info,
-        &generator_same.info,  &generator_one.info,     &generator_empty.info,
-    };
-    *count = GENERATORS;
-    return kinds;
-}
-
-static bool same_word(const char *text, size_t length, const char *word)
-{
-    return strlen(word) == length && memcmp(text, word, length) == 0;
-}
-
-static const struct generator *find_generator(const char *name, size_t length)
-{
-    for (size_t i = 0; i < GENERATORS; i++) {
-        if (same_word(name, length, generators[i]->info.name)) {
-            return generators[i];
+    *m = (meaning){0};
+    for (size_t i = 0; generators[i] != NULL; i++) {
+        if (accel_word_is(name, generators[i]->info.name)) {
+            m->generator = generators[i];
+            m->info = generators[i]->info;
         }
     }
-    return NULL;
+    for (const struct scene_maker *maker = scene_makers; maker->name != NULL; maker++) {
+        if (accel_word_is(name, maker->name)) {
+            m->maker = maker;
+            m->info =
+                (accel_kind_info){.name = maker->name, .options = case_options, .option_count = 1};
+        }
+    }
+    return m->info.name != NULL;
 }
 
-/* Reads one "key=value" of `length` bytes. `seen` has a bit for each option read before. */
-static bool read_option(const accel_kind_info *info, const char *text, size_t length,
-                        double *values, unsigned *seen, accel_error *error)
+static void complain_of_setting(const accel_kind_info *info, enum setting_fault fault,
+                                const struct setting *s, accel_error *error)
 {
-    const char *equals = memchr(text, '=', length);
-    const size_t key_length = equals == NULL ? length : (size_t)(equals - text);
-    const char *nearest = NULL;
-    size_t distance = SIZE_MAX;
-    size_t i = 0;
-    while (i < info->option_count && !same_word(text, key_length, info->options[i].key)) {
-        nearest_offer(text, key_length, info->options[i].key, &nearest, &distance);
-        i++;
-    }
-    if (i == info->option_count) {
-        const char *hint = info->option_count == 0 ? ", it has none"
-                           : nearest == NULL       ? "; 'accel kinds' lists them"
-                                                   : "; nearest is ";
+    if (fault == SETTING_UNKNOWN) {
+        const char *hint = info->option_count == 0  ? ", it has none"
+                           : s->likely.word == NULL ? "; 'accel kinds' lists them"
+                                                    : "; nearest is ";
         snprintf(error->text, sizeof error->text,
                  "scene %s: unknown key '%.*s'%s%s; nothing was made", info->name,
-                 (int)(key_length < 60 ? key_length : 60), text, hint,
-                 nearest == NULL ? "" : nearest);
-        return false;
+                 (int)accel_error_cut(s->key.at, s->key.size, 60), s->key.at, hint,
+                 s->likely.word == NULL ? "" : s->likely.word);
+        return;
     }
-    const accel_option *option = &info->options[i];
-    const char *value = equals == NULL ? "" : equals + 1;
-    const size_t value_length = equals == NULL ? 0 : length - key_length - 1;
-    double number = 0.0;
-    if ((*seen & 1u << i) != 0 || !read_number(value, value_length, &number) ||
-        !(number >= option->min && number <= option->max) ||
-        (option->whole && number != floor(number))) {
-        snprintf(error->text, sizeof error->text,
-                 "scene %s: %s=%.*s %s; allowed is one %snumber from %.17g to %.17g; "
-                 "nothing was made",
-                 info->name, option->key, (int)value_length, value,
-                 (*seen & 1u << i) != 0 ? "is given twice" : "is out of range",
-                 option->whole ? "whole " : "", option->min, option->max);
-        return false;
-    }
-    *seen |= 1u << i;
-    values[i] = number;
-    return true;
+    const accel_option *option = &info->options[s->option];
+    snprintf(error->text, sizeof error->text,
+             "scene %s: %s=%.*s %s; allowed is one %snumber from %.17g to %.17g; "
+             "nothing was made",
+             info->name, option->key, (int)accel_error_cut(s->value.at, s->value.size, 60),
+             s->value.at, fault == SETTING_TWICE ? "is given twice" : "is out of range",
+             option->whole ? "whole " : "", option->min, option->max);
 }
 
 /* The position of a key in the table, or the number of options. */
@@ -123,54 +109,53 @@ static bool read_options(const accel_kind_info *info, const char *text, double *
     for (size_t i = 0; i < info->option_count; i++) {
         values[i] = info->options[i].standard;
     }
-    unsigned seen = 0;
+    struct settings settings = {0};
     while (*text != '\0') {
-        const size_t length = strcspn(++text, ",");
-        if (!read_option(info, text, length, values, &seen, error)) {
+        struct setting setting;
+        text++;
+        const enum setting_fault fault =
+            accel_settings_take(&settings, info, &text, values, &setting);
+        if (fault != SETTING_FINE) {
+            complain_of_setting(info, fault, &setting, error);
             return false;
         }
-        text += length;
     }
-    return in_order(info, values, seen, error);
+    return in_order(info, values, settings.given, error);
 }
 
 /* A name without dot and slash that is no file was meant as a built-in scene. */
-static bool looks_built_in(const char *name, size_t length)
+static bool looks_built_in(const char *text, struct word name)
 {
-    return access(name, F_OK) != 0 && (length > 0 || *name == '\0') &&
-           memchr(name, '.', length) == NULL && memchr(name, '/', length) == NULL;
+    return access(text, F_OK) != 0 && (name.size > 0 || *text == '\0') &&
+           memchr(name.at, '.', name.size) == NULL && memchr(name.at, '/', name.size) == NULL;
 }
 
-static void say_unknown(const char *name, size_t length, accel_error *error)
+static void say_unknown(struct word name, accel_error *error)
 {
-    const char *nearest = NULL;
-    size_t distance = SIZE_MAX;
-    for (size_t i = 0; i < GENERATORS; i++) {
-        nearest_offer(name, length, generators[i]->info.name, &nearest, &distance);
+    struct nearest likely = {.found = name};
+    for (size_t i = 0; generators[i] != NULL; i++) {
+        accel_nearest_offer(&likely, generators[i]->info.name);
+    }
+    for (const struct scene_maker *maker = scene_makers; maker->name != NULL; maker++) {
+        accel_nearest_offer(&likely, maker->name);
     }
     snprintf(error->text, sizeof error->text,
              "scene '%.*s' is neither a file nor a built-in scene; %s%s; nothing was loaded",
-             (int)(length > 100 ? 100 : length), name,
-             nearest == NULL ? "'accel kinds' lists those" : "nearest is ",
-             nearest == NULL ? "" : nearest);
+             (int)accel_error_cut(name.at, name.size, 100), name.at,
+             likely.word == NULL ? "'accel kinds' lists those" : "nearest is ",
+             likely.word == NULL ? "" : likely.word);
 }
-
-/* What a SCENE means. */
-typedef struct meaning {
-    const struct generator *generator; /* NULL: a file */
-    double values[MOST_OPTIONS];       /* of its options */
-} meaning;
 
 static bool understand(meaning *m, const char *name, accel_error *error)
 {
     *error = (accel_error){.status = ACCEL_BAD_ARGUMENT};
-    const size_t length = strcspn(name, ":");
-    m->generator = find_generator(name, length);
-    if (m->generator != NULL) {
-        return read_options(&m->generator->info, name + length, m->values, error);
+    const char *at = name;
+    const struct word word = accel_settings_name(&at);
+    if (find_name(m, word)) {
+        return read_options(&m->info, at, m->values, error);
     }
-    if (looks_built_in(name, length)) {
-        say_unknown(name, length, error);
+    if (looks_built_in(name, word)) {
+        say_unknown(word, error);
         return false;
     }
     return true;
@@ -179,7 +164,7 @@ static bool understand(meaning *m, const char *name, accel_error *error)
 bool scene_understood(const char *name, accel_error *error)
 {
     meaning m;
-    return understand(&m, name, error) && (m.generator != NULL || file_there(name, error));
+    return understand(&m, name, error) && (m.info.name != NULL || file_there(name, error));
 }
 
 bool load_scene(struct loaded *out, const char *name, load_progress *progress, void *user,
@@ -190,15 +175,19 @@ bool load_scene(struct loaded *out, const char *name, load_progress *progress, v
     if (!understand(&m, name, error)) {
         return false;
     }
-    if (m.generator == NULL) {
+    if (m.info.name == NULL) {
         return load_file(out, name, progress, user, error);
+    }
+    if (m.maker != NULL) {
+        case_load(out, m.maker, (uint64_t)m.values[0]);
+        return true;
     }
     if (m.generator->generate(out, m.values)) {
         return true;
     }
     unload_scene(out);
     snprintf(error->text, sizeof error->text, "scene %s: out of memory; nothing was made",
-             m.generator->info.name);
+             m.info.name);
     error->status = ACCEL_NO_MEMORY;
     return false;
 }

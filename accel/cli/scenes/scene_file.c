@@ -8,7 +8,7 @@
 
 #include "tool/memory.h"
 #include "mesh/mesh.h"
-#include "scene_build.h"
+#include "scene.h"
 
 #include <stdio.h>
 #include <stdlib.h>

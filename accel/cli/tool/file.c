@@ -5,7 +5,7 @@
  */
 #include "file.h"
 
-#include "memory.h"
+#include "core/memory.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -68,11 +68,11 @@ static const char *read_open_file(int descriptor, struct file *file)
         return trouble;
     }
     file->size = (size_t)size;
-    file->bytes = calloc(file->size + 1, 1);
+    file->bytes = accel_memory_system(NULL, NULL, 0, file->size + 1);
     if (file->bytes == NULL) {
         return "does not fit into memory";
     }
-    memory_large_pages(file->bytes, file->size);
+    file->bytes[file->size] = '\0';
     trouble = read_all(descriptor, file);
     if (trouble != NULL) {
         free(file->bytes);

@@ -81,13 +81,3 @@ uint64_t memory_free(void)
     const uint64_t least = machine < group ? machine : group;
     return least < own ? least : own;
 }
-
-void memory_large_pages(void *block, size_t bytes)
-{
-    enum { LARGE = 8 << 20 };
-    const size_t page = (size_t)sysconf(_SC_PAGESIZE);
-    const size_t before = (page - (uintptr_t)block % page) % page;
-    if (bytes >= LARGE) {
-        madvise((char *)block + before, bytes - before, MADV_HUGEPAGE);
-    }
-}

@@ -12,8 +12,4 @@
  * own limit, whichever is least. UINT64_MAX where none of them can be read. */
 uint64_t memory_free(void);
 
-/* Asks for large pages under a block from malloc, if it is large: in a virtual machine the faults
- * of small ones take as long as reading a mesh. It may be without effect. */
-void memory_large_pages(void *block, size_t bytes);
-
 #endif

@@ -145,7 +145,7 @@ static int find_letter(const struct command *command, char letter)
 static int find_name(const struct command *command, const char *name, size_t length,
                      const char **nearest)
 {
-    size_t distance = SIZE_MAX;
+    struct nearest likely = {.found = {name, length}};
     for (int i = 0; i < (int)command->flag_count + COMMON; i++) {
         const int index =
             i < (int)command->flag_count ? i : COMMON_FIRST + i - (int)command->flag_count;
@@ -153,8 +153,9 @@ static int find_name(const struct command *command, const char *name, size_t len
         if (strlen(legal) == length && memcmp(legal, name, length) == 0) {
             return index;
         }
-        nearest_offer(name, length, legal, nearest, &distance);
+        accel_nearest_offer(&likely, legal);
     }
+    *nearest = likely.word;
     return -1;
 }
 

@@ -30,7 +30,8 @@ struct command {
     const char *details;      /* paragraphs for --help, or NULL */
     const struct flag *flags; /* `flag_count` of them, --help and --quiet not among them */
     size_t flag_count;
-    uint64_t many; /* a bit for each flag that may be given more than once */
+    bool takes_objects; /* scenes may hold objects of a host */
+    uint64_t many;      /* a bit for each flag that may be given more than once */
     /* Runs it: argv[1] is the first argument. Returns the exit code. */
     int (*run)(const struct command *command, int argc, char **argv);
 };

@@ -5,7 +5,7 @@
 #ifndef ACCEL_CLI_TRACE_H
 #define ACCEL_CLI_TRACE_H
 
-#include "scenes/camera.h"
+#include "camera.h"
 #include "tool/image.h"
 #include "structure.h"
 

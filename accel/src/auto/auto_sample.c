@@ -101,25 +101,6 @@ static void make_scene(struct sample *s)
     s->scene = (accel_scene){s->geometry, 3};
 }
 
-/* Do two triangles share a vertex? */
-static bool are_joined(const double *a, const double *b)
-{
-    for (int i = 0; i < 9; i += 3)
-        for (int j = 0; j < 9; j += 3)
-            if (a[i] == b[j] && a[i + 1] == b[j + 1] && a[i + 2] == b[j + 2])
-                return true;
-    return false;
-}
-
-static bool joins_next(const struct primitives *p, uint32_t id)
-{
-    const struct geometry *g = primitives_geometry(p, id);
-    if (g->type != ACCEL_TRIANGLES || id - g->first + 1 == g->count)
-        return false;
-    const double *vertices = g->data + 9 * (size_t)(id - g->first);
-    return are_joined(vertices, vertices + 9);
-}
-
 /* Half the surface of a primitive's box, in units of the scene's frame; not 0. */
 static double surface(const struct primitives *p, const struct frame *f, uint32_t id)
 {
@@ -152,7 +133,6 @@ static bool take(struct build *build, struct sample *s, uint32_t id, double chan
     const struct primitives *p = &build->a->prims;
     box_add(&s->box, &p->box[id]);
     s->count++;
-    s->joined += joins_next(p, id);
     return add(&build->a->memory, s, p, id, sqrt(1.0 / chance)) || accel_build_no_memory(build);
 }
 

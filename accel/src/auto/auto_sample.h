@@ -13,7 +13,9 @@
 #ifndef ACCEL_AUTO_SAMPLE_H
 #define ACCEL_AUTO_SAMPLE_H
 
-#include "../core/kind.h"
+#include "../core/build.h"
+#include "../core/cost.h"
+#include "../core/structure.h"
 
 enum { SAMPLE = 4096 };
 
@@ -28,7 +30,6 @@ struct sample {
     accel_box box;  /* around all */
     uint64_t calls; /* of the objects' callback */
     size_t count;   /* primitives */
-    size_t joined;  /* triangles that share a vertex with the next one of the scene */
 };
 
 /* Fills *s: about SAMPLE primitives, or all where there are no more. *s must be zero;

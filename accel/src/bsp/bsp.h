@@ -17,7 +17,9 @@
 #ifndef ACCEL_BSP_H
 #define ACCEL_BSP_H
 
-#include "../core/kind.h"
+#include "../core/build.h"
+#include "../core/cost.h"
+#include "../core/structure.h"
 #include "../primitive/query.h"
 
 /* Cells this deep are not split, so the walk's stack holds at most so many. */

@@ -21,9 +21,6 @@
 
 #include <string.h>
 
-/* Cost of visiting a node; the cost of a test is primitives.test_cost of them. */
-#define NODE_COST 1.0
-
 /* A split that cuts off empty space is preferred by this share of its cost. */
 #define EMPTY_BONUS 0.2
 
@@ -226,7 +223,7 @@ static double leaf_cost(const struct grower *g, uint32_t count)
 static bool small_enough(const struct grower *g, const struct task *t)
 {
     return t->depth >= g->rule.depth ||
-           (isnan(g->rule.leaf) ? leaf_cost(g, t->count) <= NODE_COST : t->count <= g->rule.leaf);
+           (isnan(g->rule.leaf) ? leaf_cost(g, t->count) <= COST_NODE : t->count <= g->rule.leaf);
 }
 
 /* Finds a split. False if there is none that may be made. */
@@ -241,7 +238,7 @@ static bool find_split(struct grower *g, struct task *t, struct split *s)
     if (s->axis < 0)
         return false;
     step_off(g, t, s);
-    const double cost = NODE_COST + g->build->a->prims.test_cost * s->tests;
+    const double cost = COST_NODE + g->build->a->prims.test_cost * s->tests;
     t->failed = cost < leaf_cost(g, t->count) ? 0 : t->failed + 1;
     return t->failed <= LOOKAHEAD;
 }
@@ -347,7 +344,7 @@ static bool make_node(struct grower *g, const struct task *t, const struct split
                           .bits = (uint32_t)s->axis | (count[0] ? 0 : BSP_LOWER_EMPTY) |
                                   (count[1] ? 0 : BSP_UPPER_EMPTY)};
     const uint32_t height = half[0].height > half[1].height ? half[0].height : half[1].height;
-    *out = (struct subtree){NODE_COST + half[0].cost + half[1].cost, height + 1};
+    *out = (struct subtree){COST_NODE + half[0].cost + half[1].cost, height + 1};
     return true;
 }
 

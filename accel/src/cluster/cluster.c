@@ -44,7 +44,7 @@ static bool make_auto(struct parts *p)
 
 static bool make_parts(struct parts *p, struct cluster_rule rule)
 {
-    p->sizes = accel_sizes_of(p->build, rule.octaves);
+    p->sizes = accel_sizes_of(&p->build->a->prims, rule.octaves);
     return isnan(rule.connectivity) ? make_auto(p) : make_given(p, rule.connectivity);
 }
 

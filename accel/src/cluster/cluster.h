@@ -10,7 +10,9 @@
 #ifndef ACCEL_CLUSTER_H
 #define ACCEL_CLUSTER_H
 
-#include "../core/kind.h"
+#include "../core/build.h"
+#include "../core/cost.h"
+#include "../core/structure.h"
 
 struct cluster {
     accel_box box;       /* around the padded boxes of its primitives, tight */

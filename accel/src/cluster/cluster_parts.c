@@ -40,5 +40,5 @@ double accel_parts_cost(const struct parts *p, const accel_box *box, double coun
 
 double accel_parts_unit_cost(const struct parts *p, const accel_box *unit, double count)
 {
-    return box_area(unit) * (p->build->a->prims.test_cost + log2(count));
+    return box_area(unit) * (p->build->a->prims.test_cost + COST_NODE * log2(count));
 }

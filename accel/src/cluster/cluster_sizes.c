@@ -1,12 +1,27 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "cluster_sizes.h"
 
-/* From exponents to octaves: the frame's scale is a power of two. */
-static void count_octaves(const struct build *build, struct sizes *s)
+#include <string.h>
+
+/* Values of a double's exponent field. */
+enum { EXPONENTS = 2048 };
+
+static uint32_t exponent_of(double size)
 {
-    for (uint32_t e = 0; e < BUILD_SIZES; e++)
-        if (build->sizes[e] > 0)
-            s->count[octave_of(ldexp(1.0, (int)e - 1023) * s->frame.scale)] += build->sizes[e];
+    uint64_t bits;
+    memcpy(&bits, &size, sizeof bits);
+    return (uint32_t)(bits >> 52) % EXPONENTS;
+}
+
+/* By exponents first, which become octaves: the frame's scale is a power of two. */
+static void count_octaves(const struct primitives *p, struct sizes *s)
+{
+    uint32_t sizes[EXPONENTS] = {0};
+    for (uint32_t i = 0; i < p->bounded.count; i++)
+        sizes[exponent_of(box_longest(&p->box[p->bounded.at[i]]))]++;
+    for (uint32_t e = 0; e < EXPONENTS; e++)
+        if (sizes[e] > 0)
+            s->count[octave_of(ldexp(1.0, (int)e - 1023) * s->frame.scale)] += sizes[e];
 }
 
 uint32_t accel_sizes_grid(uint32_t top, uint32_t octave)
@@ -37,10 +52,10 @@ static void make_classes(struct sizes *s, double octaves)
     }
 }
 
-struct sizes accel_sizes_of(const struct build *build, double octaves)
+struct sizes accel_sizes_of(const struct primitives *p, double octaves)
 {
-    struct sizes sizes = {.frame = frame_of(&build->a->prims.bounds)}, *s = &sizes;
-    count_octaves(build, s);
+    struct sizes sizes = {.frame = frame_of(&p->bounds)}, *s = &sizes;
+    count_octaves(p, s);
     for (uint32_t g = 0; g < CELLS_OCTAVES; g++)
         s->too_large[g] = g > SIZES_PER_GRID ? ldexp(1.0, SIZES_PER_GRID - (int)g) / s->frame.scale
                                              : (double)INFINITY;

@@ -7,7 +7,7 @@
 #define ACCEL_CLUSTER_SIZES_H
 
 #include "cluster_cells.h"
-#include "../core/kind.h"
+#include "../primitive/primitives.h"
 
 /* Octaves of size that share one grid of cells. */
 enum { SIZES_PER_GRID = 2 };
@@ -23,7 +23,7 @@ struct sizes {
 };
 
 /* The sizes of all bounded primitives. A class spans at most `octaves` of them; NAN: no limit. */
-struct sizes accel_sizes_of(const struct build *build, double octaves);
+struct sizes accel_sizes_of(const struct primitives *p, double octaves);
 
 /* The grid for a size in a class: the class's first octave or a multiple of SIZES_PER_GRID below
  * it; above for what has outgrown the class. */

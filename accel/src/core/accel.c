@@ -2,7 +2,6 @@
  *
  * The list of kinds, and the life of a structure: build, describe, validate, free.
  */
-#define _POSIX_C_SOURCE 200809L /* clock_gettime */
 #include "config.h"
 #include "box.h"
 #include "environment.h"
@@ -10,8 +9,6 @@
 #include "seal.h"
 #include "../wide/wide_isa.h"
 
-#include <stdarg.h>
-#include <stdio.h>
 #include <string.h>
 
 /* A library of some kinds names a list of its own. */
@@ -44,100 +41,13 @@ const accel_kind_info *const *accel_kinds(size_t *count)
     return accel_kind_list;
 }
 
-static double seconds_since(const struct timespec *start)
+/* What is built moved, or is new. */
+static void build_of(struct build *build, accel *a)
 {
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)(now.tv_sec - start->tv_sec) + 1e-9 * (double)(now.tv_nsec - start->tv_nsec);
-}
-
-static void end_phase(struct build *build)
-{
-    accel_info *info = &build->a->info;
-    if (build->phase && info->phase_count < ACCEL_INFO_PHASES) {
-        info->phases[info->phase_count].name = build->phase;
-        info->phases[info->phase_count].seconds = seconds_since(&build->phase_start);
-        info->phase_count++;
-    }
-    build->phase = NULL;
-}
-
-void accel_build_phase(struct build *build, const char *name)
-{
-    end_phase(build);
-    build->phase = name;
-    build->done = 0.0;
-    clock_gettime(CLOCK_MONOTONIC, &build->phase_start);
-}
-
-bool accel_build_tick(struct build *build, double done)
-{
-    const double seconds_between = 0.005;
-    if (done > build->done)
-        build->done = done < 1.0 ? done : 1.0;
-    if (!build->hooks->progress || seconds_since(&build->last_tick) < seconds_between)
-        return true;
-    clock_gettime(CLOCK_MONOTONIC, &build->last_tick);
-    if (build->hooks->progress(build->hooks->user, build->phase, build->done))
-        return true;
-    accel_error_set(build->error, ACCEL_CANCELLED,
-                    "build %s: cancelled in phase '%s'; nothing was built",
-                    build->a->kind->info.name, build->phase);
-    return false;
-}
-
-bool accel_build_no_memory(struct build *build)
-{
-    const struct memory *m = &build->a->memory;
-    accel_error_set(
-        build->error, ACCEL_NO_MEMORY,
-        "build %s: no memory for a block of %zu bytes in phase '%s', %zu bytes were held; "
-        "nothing was built",
-        build->a->kind->info.name, m->refused, build->phase, m->bytes);
-    return false;
-}
-
-void accel_build_left_out(struct build *build, size_t bytes, size_t made, const char *format, ...)
-{
-    accel_info *info = &build->a->info;
-    if (info->left_out_count == ACCEL_INFO_LEFT_OUT)
-        return;
-    const double per_byte = made > 0 ? seconds_since(&build->phase_start) / (double)made : 0.0;
-    const uint32_t i = info->left_out_count++;
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(info->left_out[i].what, sizeof info->left_out[i].what, format, arguments);
-    va_end(arguments);
-    info->left_out[i].bytes = bytes;
-    info->left_out[i].seconds = per_byte * (double)bytes;
-}
-
-__attribute__((format(printf, 2, 0))) static void add_note(accel_info *info, const char *format,
-                                                           va_list arguments)
-{
-    if (info->note_count == ACCEL_INFO_NOTES)
-        return;
-    vsnprintf(info->notes[info->note_count], sizeof info->notes[0], format, arguments);
-    for (uint32_t i = 0; i < info->note_count; i++)
-        if (strcmp(info->notes[i], info->notes[info->note_count]) == 0)
-            return;
-    info->note_count++;
-}
-
-void accel_build_note(struct build *build, const char *format, ...)
-{
-    va_list arguments;
-    va_start(arguments, format);
-    add_note(&build->a->info, format, arguments);
-    va_end(arguments);
-}
-
-void accel_info_note(accel_info *info, const char *format, ...)
-{
-    va_list arguments;
-    va_start(arguments, format);
-    add_note(info, format, arguments);
-    va_end(arguments);
+    build->a = a;
+    build->memory = &a->memory;
+    build->info = &a->info;
+    build->kind = a->kind->info.name;
 }
 
 /* Lets a kind that stands for others pick one, and turns the structure into that, with default
@@ -158,18 +68,16 @@ static bool choose(struct build *build)
     memset((char *)a + from->size, 0, to->size - from->size);
     a->memory = m;
     a->kind = to;
-    build->a = a;
+    build_of(build, a);
     return accel_config_parse(to->info.name, a->option, build->error) != NULL;
 }
 
 /* Copies the scene and builds the kind over it. */
 static bool run(struct build *build, const accel_scene *scene)
 {
-    struct timespec start;
-    clock_gettime(CLOCK_MONOTONIC, &start);
-    build->last_tick = start;
     accel_build_phase(build, "copy");
-    if (!accel_primitives_copy(build, scene))
+    const struct timespec start = build->last_tick = build->phase_start;
+    if (!accel_primitives_copy(build, &build->a->prims, scene))
         return false;
     if (build->a->kind->choose && !choose(build))
         return false;
@@ -178,10 +86,10 @@ static bool run(struct build *build, const accel_scene *scene)
         if (!a->kind->build(build))
             return false;
     }
-    end_phase(build);
+    accel_build_phase(build, NULL);
     a->info.kind = a->kind->info.name;
     accel_config_print(a->kind, a->option, a->info.config, sizeof a->info.config);
-    a->info.seconds = seconds_since(&start);
+    a->info.seconds = accel_seconds_since(&start);
     return true;
 }
 
@@ -230,7 +138,8 @@ __attribute__((noinline)) static accel_status build_scene(accel **out, const acc
     if (!a)
         return error->status;
     memcpy(a->option, option, sizeof option);
-    struct build build = {.a = a, .hooks = hooks, .error = error};
+    struct build build = {.hooks = hooks, .error = error};
+    build_of(&build, a);
     if (!run(&build, scene)) {
         accel_free(build.a);
         return error->status;

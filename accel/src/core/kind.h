@@ -6,64 +6,14 @@
 #ifndef ACCEL_KIND_H
 #define ACCEL_KIND_H
 
-#include <time.h>
-
-#include "accel/accel.h"
-#include "error.h"
-#include "memory.h"
-#include "../primitive/primitives.h"
+#include "build.h"
+#include "cost.h"
+#include "structure.h"
 
 struct query;
-struct wide;
 
-/* Options of a kind, and kinds, at most. */
-enum { MAX_OPTIONS = 12, MAX_KINDS = 16 };
-
-/* The parts that every structure has. A kind's own struct embeds it as its first member. */
-struct accel {
-    const struct accel_kind *kind; /* how it was built, how it is walked */
-    struct memory memory;          /* what it holds */
-    struct primitives prims;       /* what it is built over */
-    double option[MAX_OPTIONS];    /* by the kind's option index; NAN stands for auto */
-    accel_info info;               /* as accel_describe hands it out */
-    const struct wide *fast;       /* the tree that answers closest and any queries, or NULL */
-    uint64_t seal[2];              /* over all above, and over what the kind adds: see seal.h. What
-                                      changes after accel_build lies in blocks of its own */
-};
-
-/* Values of a double's exponent field. */
-enum { BUILD_SIZES = 2048 };
-
-/* One build under way. */
-struct build {
-    struct accel *a;          /* what is built */
-    const accel_hooks *hooks; /* never NULL */
-    accel_error *error;       /* first error; never NULL */
-    const char *phase;        /* name of the phase under way */
-    double done;              /* part of it that is done, as it is told: never less than before */
-    struct timespec phase_start; /* when it began */
-    struct timespec last_tick;   /* when the progress hook was last called */
-    size_t untold;               /* primitives looked at since the last question for the time */
-    uint32_t sizes[BUILD_SIZES]; /* how many bounded primitives have a longest side with this binary
-                                    exponent */
-};
-
-/* How a kind's nodes per ray grow with the primitives. */
-enum kind_growth { GROWS_LIKE_LOG, GROWS_LIKE_FIFTH_ROOT, GROWS_LIKE_N };
-
-/* What a kind costs, for `auto`: nanoseconds where all is in the cache. Fitted to the counts and
- * times that `accel bench` prints, by least squares of what a kind takes over the mean of all kinds
- * on the same rays: how much a scene strains the caches is alike for all and drops out. */
-struct kind_cost {
-    double build;    /* per primitive and level, n * log2 n in all */
-    double ray;      /* per ray, before the first node */
-    double node;     /* per node or cell visited */
-    double triangle; /* per triangle tested */
-    double other;    /* per other primitive tested; of an object, until its callback is called */
-    double mesh;     /* share of the visits to a thinned mesh, whose triangles overlap when scaled,
-                        that remain in the mesh itself, where they do not */
-    enum kind_growth growth;
-};
+/* Kinds at most. */
+enum { MAX_KINDS = 16 };
 
 struct accel_kind {
     accel_kind_info info; /* name, summary, options; the first member: see kinds */
@@ -87,41 +37,5 @@ struct accel_kind {
 
 /* The kinds, NULL-ended; each is the `info` of an accel_kind. */
 extern const accel_kind_info *const accel_kind_list[];
-
-/* Starts the next phase of the build and notes the time of the last one. */
-void accel_build_phase(struct build *build, const char *name);
-
-/* Tells the progress hook how far the phase is, at most every few milliseconds; call it often. What
- * is told is the most of the phase so far, and in 0..1, whatever `done` is: a builder that takes
- * work back, or whose guess was too high, need not care. False if the build is cancelled. */
-bool accel_build_tick(struct build *build, double done);
-
-/* The same in small steps: after each, tell how many primitives it looked at. To ask for the time
- * takes as long as to make a small leaf, so that is done once for thousands. */
-static inline bool build_step(struct build *build, size_t looked_at, double done)
-{
-    enum { PRIMITIVES_A_TICK = 16384 };
-    build->untold += looked_at;
-    if (build->untold < PRIMITIVES_A_TICK)
-        return true;
-    build->untold = 0;
-    return accel_build_tick(build, done);
-}
-
-/* Notes that memory ran out, which the failed allocation left in a->memory. Returns false. */
-bool accel_build_no_memory(struct build *build);
-
-/* Adds to accel_info.left_out something that would take so many bytes; the phase under way made
- * `made` bytes of that sort. */
-__attribute__((format(printf, 4, 5))) void
-accel_build_left_out(struct build *build, size_t bytes, size_t made, const char *format, ...);
-
-/* Adds a line to accel_info.notes: why something was chosen, or a limit that was met. Once. */
-__attribute__((format(printf, 2, 3))) void accel_build_note(struct build *build, const char *format,
-                                                            ...);
-
-/* The same, of a description. */
-__attribute__((format(printf, 2, 3))) void accel_info_note(accel_info *info, const char *format,
-                                                           ...);
 
 #endif

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "number.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -9,7 +10,7 @@
 
 /* A double is told from all its neighbours' midpoints by 767 digits, and one more that is not zero
  * if any digit left out is not. */
-enum { MOST_DIGITS = 800 };
+enum { MOST_DIGITS = NUMBER_REWRITTEN - 32 };
 
 /* Exponents that lie beyond double's range whatever the digits. */
 enum { FAR = 100000 };
@@ -101,7 +102,7 @@ struct number_text accel_number_text_exact(double x)
 /* A number being read. */
 struct reader {
     const char *at, *end;
-    char digit[MOST_DIGITS + 32]; /* the significant ones, then room for an exponent */
+    char *digit; /* the significant ones, MOST_DIGITS at most */
     int count;
     int64_t exponent; /* that the digits, as a whole number, are multiplied by */
 };
@@ -161,19 +162,109 @@ static bool read_exponent(struct reader *r)
     return true;
 }
 
-bool accel_number_parse(const char *at, size_t size, double *out)
+static void put_exponent(char *to, int exponent)
 {
-    struct reader r = {.at = at, .end = at + size, .count = 0, .exponent = 0};
-    const bool minus = read_minus(&r);
+    *to++ = 'e';
+    if (exponent < 0)
+        *to++ = '-';
+    int unit = 1;
+    while (unit <= FAR / 10 && abs(exponent) / unit >= 10)
+        unit *= 10;
+    for (; unit > 0; unit /= 10)
+        *to++ = (char)('0' + abs(exponent) / unit % 10);
+    *to = '\0';
+}
+
+bool accel_number_rewrite(const char *at, size_t size, char out[NUMBER_REWRITTEN])
+{
+    char *to = out;
+    struct reader r = {.at = at, .end = at + size};
+    if (read_minus(&r))
+        *to++ = '-';
+    r.digit = to;
     bool any = read_digits(&r, false);
     if (accept(&r, '.', '.'))
         any |= read_digits(&r, true);
     if (!any || (accept(&r, 'e', 'E') && !read_exponent(&r)) || r.at != r.end)
         return false;
     const int exponent = r.exponent < -FAR ? -FAR : r.exponent > FAR ? FAR : (int)r.exponent;
-    snprintf(r.digit + r.count, sizeof r.digit - (size_t)r.count, "%se%d", r.count ? "" : "0",
-             exponent);
-    const double magnitude = strtod(r.digit, NULL);
-    *out = minus ? -magnitude : magnitude;
+    to += r.count;
+    if (r.count == 0)
+        *to++ = '0';
+    put_exponent(to, exponent);
+    return true;
+}
+
+/* Digits that fit into a word, times a power of ten. */
+struct short_number {
+    uint64_t digits;
+    int count, exponent;
+};
+
+/* Returns behind what it took: digits, with a point among them or none. */
+static const char *scan_digits(const char *at, const char *end, struct short_number *n)
+{
+    bool point = false;
+    for (; at < end && n->count <= 19; at++) {
+        const unsigned digit = (unsigned char)*at - (unsigned)'0';
+        if (digit < 10) {
+            n->digits = 10 * n->digits + digit;
+            n->count++;
+            n->exponent -= point;
+        } else if (*at == '.' && !point) {
+            point = true;
+        } else {
+            break;
+        }
+    }
+    return at;
+}
+
+/* The same of an exponent of up to three digits, or none; NULL where it has no digit. */
+static const char *scan_exponent(const char *at, const char *end, struct short_number *n)
+{
+    if (at == end || (*at != 'e' && *at != 'E'))
+        return at;
+    const char *const sign = at + 1;
+    const bool minus = sign < end && *sign == '-';
+    const char *const first = sign + (sign < end && (*sign == '-' || *sign == '+'));
+    int exponent = 0;
+    for (at = first; at < end && at < first + 3 && *at >= '0' && *at <= '9'; at++)
+        exponent = 10 * exponent + (*at - '0');
+    n->exponent += minus ? -exponent : exponent;
+    return at > first ? at : NULL;
+}
+
+/* Only where one operation on exact operands gives the number, which then rounds once: up to 2^53,
+ * times or over a power of ten that is exact (Clinger, "How to Read Floating Point Numbers
+ * Accurately", PLDI 1990). */
+static bool parse_short(const char *at, size_t size, double *out)
+{
+    static const double powers[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+                                    1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
+                                    1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+    const char *const end = at + size;
+    const bool minus = size > 0 && *at == '-';
+    struct short_number n = {0, 0, 0};
+    at = scan_digits(at + (size > 0 && (*at == '-' || *at == '+')), end, &n);
+    if (n.count == 0 || scan_exponent(at, end, &n) != end)
+        return false;
+    if (n.count > 19 || n.digits > UINT64_C(1) << 53 || n.exponent < -22 || n.exponent > 22 ||
+        FLT_EVAL_METHOD != 0)
+        return false;
+    const double digits = (double)n.digits;
+    const double x = n.exponent < 0 ? digits / powers[-n.exponent] : digits * powers[n.exponent];
+    *out = minus ? -x : x;
+    return true;
+}
+
+bool accel_number_parse(const char *at, size_t size, double *out)
+{
+    char text[NUMBER_REWRITTEN];
+    if (parse_short(at, size, out))
+        return true;
+    if (!accel_number_rewrite(at, size, text))
+        return false;
+    *out = strtod(text, NULL);
     return true;
 }

@@ -23,4 +23,10 @@ struct number_text accel_number_text_exact(double x);
  * nearest; infinite beyond double's range. False if it is not that. */
 bool accel_number_parse(const char *at, size_t size, double *out);
 
+enum { NUMBER_REWRITTEN = 832 };
+
+/* The same number without radix character, which libc's strtod and strtof read in every locale and
+ * round as they would the original. False if it is no number. */
+bool accel_number_rewrite(const char *at, size_t size, char out[NUMBER_REWRITTEN]);
+
 #endif

@@ -19,7 +19,9 @@
 #ifndef ACCEL_GRID_H
 #define ACCEL_GRID_H
 
-#include "../core/kind.h"
+#include "../core/build.h"
+#include "../core/cost.h"
+#include "../core/structure.h"
 #include "../primitive/query.h"
 
 /* Cells of a brick along each axis, and in all: one bit of a mask each. */
@@ -53,14 +55,11 @@ struct grid_items {
     size_t count;       /* of them */
 };
 
-/* Predicted cost of beginning the walk of a grid, in visits of a node. Measured. */
-#define GRID_BEGIN_COST 25.0
-
 /* How fine a grid is to be. */
 struct grid_plan {
     uint32_t cells[3]; /* along each axis */
     double density;    /* cells per item that were asked for */
-    double cost;       /* predicted, of a line that meets the grid's box, in visits of a node */
+    double cost;       /* predicted, of a line that meets the grid's box */
     double tests;      /* of that, for testing items */
     double capacity;   /* factor on the bounds that keep memory in proportion to the items */
     bool coarser;      /* than was asked for: for the bounds, or a pile */

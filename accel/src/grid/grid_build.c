@@ -28,7 +28,7 @@ static bool too_many(struct build *build)
         build->error, ACCEL_TOO_LARGE,
         "build %s: more than 4294967295 references; nothing was built, a lower density makes "
         "fewer",
-        build->a->kind->info.name);
+        build->kind);
     return false;
 }
 

@@ -10,12 +10,6 @@
  */
 #include "grid.h"
 
-/* In visits of a node: a step from cell to cell, a reference found in the mailbox, an item that is
- * a grid. Measured against the octree's walk. */
-#define STEP_COST    0.4
-#define MAILBOX_COST 0.1
-#define GRID_COST    30.0
-
 /* Densities that are tried: from about one cell in all to this many cells per item. */
 #define MAX_DENSITY 128.0
 
@@ -138,7 +132,7 @@ static struct outcome look(const struct planner *s, const uint32_t cells[3], siz
             block *= cut;
         }
         sum.references += block;
-        sum.tests += surface(side) / whole * (ref < s->p->count ? s->p->test_cost : GRID_COST);
+        sum.tests += surface(side) / whole * (ref < s->p->count ? s->p->test_cost : COST_GRID_ITEM);
     }
     const double share = (double)s->items.count / looked;
     return (struct outcome){sum.references * share, sum.tests * share};
@@ -152,8 +146,8 @@ static double predicted_cost(const struct planner *s, const uint32_t cells[3], s
         steps += (cells[k] - 1) * s->side[(k + 1) % 3] * s->side[(k + 2) % 3] / whole;
         cell[k] = s->side[k] / cells[k];
     }
-    return GRID_BEGIN_COST + STEP_COST * steps + o.tests +
-           MAILBOX_COST * o.references * surface(cell) / whole;
+    return COST_GRID_BEGIN + COST_GRID_STEP * steps + o.tests +
+           COST_GRID_MAILBOX * o.references * surface(cell) / whole;
 }
 
 /* The plan for one density. Its cost is infinite if it is out of bounds. */
@@ -197,7 +191,7 @@ double accel_grid_list_cost(const struct primitives *p, struct grid_items items)
 {
     double sum = 0.0;
     for (size_t i = 0; i < items.count; i++)
-        sum += items.at[i] < p->count ? p->test_cost : GRID_COST;
+        sum += items.at[i] < p->count ? p->test_cost : COST_GRID_ITEM;
     return sum;
 }
 

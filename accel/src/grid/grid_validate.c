@@ -23,7 +23,7 @@ struct checker {
 
 static bool broken(const struct checker *c, const char *what, size_t number)
 {
-    accel_error_set(c->error, ACCEL_BROKEN, "%s: %s %zu", c->a->kind->info.name, what, number);
+    accel_error_set(c->error, ACCEL_BROKEN, "%s: %s %zu", c->a->info.kind, what, number);
     return false;
 }
 

@@ -15,7 +15,9 @@
 
 #include "boxtree.h"
 #include "../cluster/cluster_cells.h"
-#include "../core/kind.h"
+#include "../core/build.h"
+#include "../core/cost.h"
+#include "../core/structure.h"
 
 struct boxtree {
     ARRAY_OF(struct boxtree_node) nodes;

@@ -194,7 +194,7 @@ static bool worth_a_grid(const struct builder *b, const accel_box *cell, const a
     const struct primitives *p = &b->build->a->prims;
     const double share = mean_blame(b, cell, items), chance = box_chance(box, cell);
     const double list = share * accel_grid_list_cost(p, items);
-    if (list <= chance * GRID_BEGIN_COST)
+    if (list <= chance * COST_GRID_BEGIN)
         return false;
     *plan = accel_grid_plan(p, &b->h->pool, box, items, b->build->a->option[HUG_DENSITY]);
     if (plan->cells[0] == 1 && plan->cells[1] == 1 && plan->cells[2] == 1)

@@ -5,10 +5,9 @@
  * Method: build every kind over a sample of the scene (auto_sample.h), trace a pilot of rays
  * through each, count nodes, tests and calls of host objects, and predict
  *
- *     time = build(n) + rays * (ray + node * nodes + test * tests + miss * (nodes + tests)
- *                               + call * calls)
+ *     time = build(n) + rays * (ray + node * nodes + test * tests + call * calls)
  *
- * with the kind's cost figures (kind.h) and the way its counts grow from the sample's size to n.
+ * with the kind's cost figures (cost.h) and the way its counts grow from the sample's size to n.
  * Counts, not clocks, so the choice is the same on every machine and run. The selector's idea is
  * from Subramanian and Fussell, "Automatic Termination Criteria for Ray Tracing Hierarchies", GI
  * 1991, and Hapala, Karlik and Havran, "When It Makes Sense to Use Uniform Grids for Ray Tracing",
@@ -21,6 +20,7 @@
  * Cost: some tens of milliseconds, whatever the scene. Bad at: scenes whose structure a sample does
  * not show; hosts whose later rays are unlike the pilot.
  */
+#include "../core/kind.h"
 #include "../auto/auto_sample.h"
 #include "../core/config.h"
 #include "../core/number.h"
@@ -32,14 +32,6 @@ enum { PILOT = 256 };
 
 /* Below this many seconds of predicted linear search, choosing costs more than it can save. */
 #define WORTH_CHOOSING 0.005
-
-/* Nanoseconds that a node or a test waits for memory, for each doubling of the structure's bytes
- * beyond CACHE. Fitted with the kinds' figures to 24 scenes of up to 130 MB. */
-#define MISS  4.0
-#define CACHE 2e6
-
-/* Nanoseconds of one call of a host's object, if the host does not say. */
-#define CALL 100.0
 
 enum { RAYS };
 
@@ -55,7 +47,6 @@ static const accel_option options[] = {
 struct candidate {
     const struct accel_kind *kind;
     double nodes, tests, calls; /* per ray of the pilot */
-    double bytes;               /* per primitive of the sample */
     double seconds;             /* predicted for the whole scene */
 };
 
@@ -163,13 +154,10 @@ static double predict_ray(const struct chooser *c, const struct candidate *k)
     const struct kind_cost *cost = &k->kind->cost;
     const double n = (double)c->build->a->prims.bounded.count, from = (double)c->sample.count;
     const double grown = growth(cost->growth, from, n);
-    const double joined = n > from ? (double)c->sample.joined / from : 0.0;
-    const double mesh = 1.0 - joined * (1.0 - cost->mesh);
-    const double nodes = k->nodes * mesh * grown;
-    const double tests = k->tests * mesh * (cost->growth == GROWS_LIKE_N ? grown : 1.0);
+    const double nodes = k->nodes * grown;
+    const double tests = k->tests * (cost->growth == GROWS_LIKE_N ? grown : 1.0);
     const double test = c->triangles * cost->triangle + (1.0 - c->triangles) * cost->other;
-    const double miss = MISS * log2(1.0 + k->bytes * n / CACHE);
-    return cost->ray + (cost->node + miss) * nodes + (test + miss) * tests + c->call * k->calls;
+    return cost->ray + cost->node * nodes + test * tests + c->call * k->calls;
 }
 
 static double predict(const struct chooser *c, const struct candidate *k)
@@ -190,7 +178,7 @@ static void weigh_primitives(struct chooser *c)
             triangles += geometry->count;
         if (geometry->type == ACCEL_OBJECTS) {
             objects += geometry->count;
-            calls += geometry->count * (geometry->cost > 0.0 ? geometry->cost : CALL);
+            calls += geometry->count * (geometry->cost > 0.0 ? geometry->cost : COST_CALL);
         }
     }
     c->triangles = triangles / p->count;
@@ -234,7 +222,6 @@ static bool try_kind(struct chooser *c, struct candidate *k)
         return false;
     }
     const bool fine = fly_pilot(c, a, k);
-    k->bytes = (double)a->memory.bytes / (double)c->sample.count;
     m->peak = m->bytes + a->memory.peak > m->peak ? m->bytes + a->memory.peak : m->peak;
     accel_free(a);
     k->seconds = predict(c, k);

@@ -11,6 +11,7 @@
  * into two whose grown intervals overlap at the plane's own t. It holds at the root, which contains
  * P'. And what the cell and P' share has an interval inside S of the cell.
  */
+#include "../core/kind.h"
 #include "../bsp/bsp.h"
 
 /* A cell to visit later: the part of the ray inside it. */
@@ -155,13 +156,7 @@ const struct accel_kind accel_bsp_kind = {
              .summary = "kd-tree by the surface-area heuristic",
              .options = options,
              .option_count = sizeof options / sizeof *options},
-    .cost = {.build = 127,
-             .ray = 78,
-             .node = 13,
-             .triangle = 4.5,
-             .other = 10.5,
-             .mesh = 1,
-             .growth = GROWS_LIKE_LOG},
+    .cost = COST_BSP,
     .size = sizeof(struct bsp),
     .build = build,
     .walk = walk,

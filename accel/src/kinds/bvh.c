@@ -6,6 +6,7 @@
  * Invariant, encoding, cost: wide/wide.h. Bad at: primitives whose boxes overlap much, such as long
  * thin ones across each other.
  */
+#include "../core/kind.h"
 #include "../wide/wide_form.h"
 
 struct bvh {
@@ -43,13 +44,7 @@ const struct accel_kind accel_bvh_kind = {
              .summary = "hierarchy of boxes by the surface-area heuristic",
              .options = options,
              .option_count = sizeof options / sizeof *options},
-    .cost = {.build = 41,
-             .ray = 58,
-             .node = 17,
-             .triangle = 2.5,
-             .other = 22,
-             .mesh = 0.65,
-             .growth = GROWS_LIKE_LOG},
+    .cost = COST_BVH,
     .size = sizeof(struct bvh),
     .build = build,
     .walk = walk,

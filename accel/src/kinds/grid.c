@@ -6,6 +6,7 @@
  *
  * Encoding, invariant and cost: see grid.h. The walk: see grid_walk.h.
  */
+#include "../core/kind.h"
 #include "../grid/grid_walk.h"
 
 #include "../core/number.h"
@@ -94,13 +95,7 @@ const struct accel_kind accel_grid_kind = {
              .summary = "one uniform grid over the scene",
              .options = options,
              .option_count = sizeof options / sizeof *options},
-    .cost = {.build = 15,
-             .ray = 107,
-             .node = 34,
-             .triangle = 8.7,
-             .other = 14.3,
-             .mesh = 1,
-             .growth = GROWS_LIKE_FIFTH_ROOT},
+    .cost = COST_GRID,
     .size = sizeof(struct grid_kind),
     .build = build,
     .walk = walk,

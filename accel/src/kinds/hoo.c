@@ -23,6 +23,7 @@
  * Cost: as an octree, without the empty space between clusters and without cells as small as one
  * cluster needs in all the others. Bad at: scenes that are one cluster gain nothing.
  */
+#include "../core/kind.h"
 #include "../cluster/cluster.h"
 #include "../octree/octree_deferred.h"
 #include "../hoo/hoo_pairing.h"
@@ -337,13 +338,7 @@ const struct accel_kind accel_hoo_kind = {
              .summary = "hierarchy of octrees: clusters, an octree for each, a binary tree on top",
              .options = options,
              .option_count = sizeof options / sizeof *options},
-    .cost = {.build = 27,
-             .ray = 58,
-             .node = 36,
-             .triangle = 4.5,
-             .other = 11,
-             .mesh = 1,
-             .growth = GROWS_LIKE_LOG},
+    .cost = COST_HOO,
     .size = sizeof(struct hoo_kind),
     .build = build,
     .walk = walk,

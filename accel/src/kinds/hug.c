@@ -2,6 +2,7 @@
  *
  * The kind hug: see hug.h.
  */
+#include "../core/kind.h"
 #include "../hug/hug.h"
 
 #include "../grid/grid_walk.h"
@@ -76,13 +77,7 @@ const struct accel_kind accel_hug_kind = {
              .summary = "clusters, a uniform grid each, nested",
              .options = options,
              .option_count = sizeof options / sizeof *options},
-    .cost = {.build = 40,
-             .ray = 107,
-             .node = 34,
-             .triangle = 8.7,
-             .other = 14.3,
-             .mesh = 1,
-             .growth = GROWS_LIKE_FIFTH_ROOT},
+    .cost = COST_HUG,
     .size = sizeof(struct hug),
     .build = accel_hug_build,
     .walk = walk,

@@ -35,13 +35,7 @@ static void release(accel *a)
 
 const struct accel_kind accel_linear_kind = {
     .info = {.name = "linear", .summary = "no structure: tests every primitive; judges the others"},
-    .cost = {.build = 0,
-             .ray = 40,
-             .node = 0,
-             .triangle = 16.5,
-             .other = 6,
-             .mesh = 1,
-             .growth = GROWS_LIKE_N},
+    .cost = COST_LINEAR,
     .size = sizeof(accel),
     .build = build,
     .walk = walk,

@@ -10,6 +10,7 @@
  * wide: a wide tree (wide/wide.h) cut along the three axes in turn, where the cost is lowest; a
  * primitive goes to the octant of its centre.
  */
+#include "../core/kind.h"
 #include "../octree/octree.h"
 #include "../wide/wide_form.h"
 
@@ -107,13 +108,7 @@ const struct accel_kind accel_octree_kind = {
              .summary = "one octree over the scene",
              .options = options,
              .option_count = sizeof options / sizeof *options},
-    .cost = {.build = 17,
-             .ray = 70,
-             .node = 30,
-             .triangle = 7,
-             .other = 11,
-             .mesh = 1,
-             .growth = GROWS_LIKE_LOG},
+    .cost = COST_OCTREE,
     .size = sizeof(struct octree_kind),
     .build = build,
     .walk = walk,

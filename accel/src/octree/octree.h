@@ -18,7 +18,9 @@
 #ifndef ACCEL_OCTREE_H
 #define ACCEL_OCTREE_H
 
-#include "../core/kind.h"
+#include "../core/build.h"
+#include "../core/cost.h"
+#include "../core/structure.h"
 #include "../primitive/query.h"
 
 struct octree_deferred;

@@ -19,14 +19,6 @@
 
 #include <string.h>
 
-/* Costs in the units of primitives.test_cost, about 15 ns: of visiting a node, of visiting a leaf
- * apart from its tests, and of a test where there are only triangles, which are tested in twos.
- * Measured: teapots, armadillo, spheres and cubes, each with rays at them, through them and between
- * their surfaces, were fastest within a few percent from half to twice these ratios. */
-#define NODE_COST     5.0
-#define LEAF_COST     5.0
-#define TRIANGLE_COST 1.0
-
 /* References that a tree may have, in multiples of its primitives: where the builder chooses the
  * depth, and where it is given. Boxes that overlap double their references with each level, so
  * that without a bound a depth of 40 would never end. */
@@ -172,13 +164,13 @@ static void count_children(struct grower *g, const struct task *t, struct split 
 
 static double leaf_cost(const struct grower *g, uint32_t count)
 {
-    return LEAF_COST + g->test_cost * count;
+    return COST_OCTREE_LEAF + g->test_cost * count;
 }
 
 /* The cost of the cell if the split were the last. */
 static double split_cost(const struct grower *g, const struct split *s)
 {
-    return NODE_COST + s->chance * (LEAF_COST * s->filled + g->test_cost * s->sum);
+    return COST_OCTREE_NODE + s->chance * (COST_OCTREE_LEAF * s->filled + g->test_cost * s->sum);
 }
 
 /* Places the planes, except those that every primitive would lie on, and counts the children.
@@ -232,7 +224,7 @@ static bool too_large(const struct grower *g, const char *what)
         g->build->error, ACCEL_TOO_LARGE,
         "build %s: more than 4294967295 %s; nothing was built, allow more primitives per leaf "
         "or less depth",
-        g->build->a->kind->info.name, what);
+        g->build->kind, what);
     return false;
 }
 
@@ -361,7 +353,7 @@ static bool grow_children(struct grower *g, const struct task *t, const struct s
 {
     size_t begin = g->stack.count - (size_t)s->sum;
     uint32_t at = 0;
-    *cost = NODE_COST;
+    *cost = COST_OCTREE_NODE;
     for (uint32_t c = 0; c < 8; c++) {
         if (s->count[c] == 0) {
             g->done += t->volume / 8;
@@ -437,7 +429,8 @@ static struct grower grower_of(struct build *build, struct octree_pool *pool,
                            .pool = pool,
                            .box = prims->box,
                            .rule = rule,
-                           .test_cost = prims->only_triangles ? TRIANGLE_COST : prims->test_cost};
+                           .test_cost =
+                               prims->only_triangles ? COST_OCTREE_TRIANGLE : prims->test_cost};
 }
 
 static double budget_of(struct octree_rule rule, size_t count)

@@ -67,7 +67,13 @@ make_part(const struct octree_lazy *lazy, const struct octree_deferred *deferred
     static const accel_hooks no_hooks = {.user = NULL};
     accel own = {.kind = lazy->a->kind, .memory = account(lazy), .prims = lazy->a->prims};
     accel_error error = {.status = ACCEL_OK};
-    struct build build = {.a = &own, .hooks = &no_hooks, .error = &error, .phase = "later"};
+    struct build build = {.a = &own,
+                          .memory = &own.memory,
+                          .info = &own.info,
+                          .kind = lazy->a->info.kind,
+                          .hooks = &no_hooks,
+                          .error = &error,
+                          .phase = "later"};
     struct octree_pool pool = {.nodes = 0};
     struct octree_cell root;
     bool refused;

@@ -20,7 +20,7 @@ struct checker {
 
 static bool broken(const struct checker *c, const char *what, uint32_t number)
 {
-    accel_error_set(c->error, ACCEL_BROKEN, "%s: %s %u", c->a->kind->info.name, what, number);
+    accel_error_set(c->error, ACCEL_BROKEN, "%s: %s %u", c->a->info.kind, what, number);
     return false;
 }
 

@@ -8,14 +8,9 @@
 #include <string.h>
 
 #include "../core/box.h"
-#include "../core/kind.h"
+#include "../core/build.h"
+#include "../core/cost.h"
 #include "../core/seal.h"
-
-/* Mean cost of one test in units of a node's visit: measured for triangles and spheres; a host's
- * object runs through at least a callback. */
-#define TRIANGLE_COST 0.4
-#define SPHERE_COST   1.5
-#define OBJECT_COST   6.0
 
 /* What becomes of one primitive. */
 enum sort { BOUNDED, UNBOUNDED, DEGENERATE, INVALID };
@@ -162,16 +157,16 @@ static bool check_indices(struct build *build, uint32_t number, const accel_tria
 
 static void *allocate(struct build *build, size_t count, size_t size)
 {
-    struct memory *m = &build->a->memory;
+    struct memory *m = build->memory;
     void *block = accel_memory_resize(m, NULL, 0, count * size);
     if (!block)
         accel_build_no_memory(build);
     return block;
 }
 
-static bool allocate_all(struct build *build, const accel_scene *scene, uint32_t total)
+static bool allocate_all(struct build *build, struct primitives *p, const accel_scene *scene,
+                         uint32_t total)
 {
-    struct primitives *p = &build->a->prims;
     if (scene->count == 0)
         return true;
     if (!(p->geometry = allocate(build, scene->count, sizeof *p->geometry)))
@@ -225,7 +220,7 @@ static enum sort copy_primitive(const accel_geometry *from, struct geometry *g, 
 
 static bool append(struct build *build, struct ids *list, uint32_t id)
 {
-    if (!array_extend(&build->a->memory, list, 1))
+    if (!array_extend(build->memory, list, 1))
         return accel_build_no_memory(build);
     list->at[list->count - 1] = id;
     return true;
@@ -238,22 +233,13 @@ static void note_invalid(accel_info *info, accel_id name)
     info->skipped++;
 }
 
-static uint32_t exponent_of(double size)
-{
-    uint64_t bits;
-    memcpy(&bits, &size, sizeof bits);
-    return (uint32_t)(bits >> 52) % BUILD_SIZES;
-}
-
 /* Enters one primitive into the lists and counts; makes its box the padded one. */
-static bool enter(struct build *build, uint32_t id, enum sort sort)
+static bool enter(struct build *build, struct primitives *p, uint32_t id, enum sort sort)
 {
-    struct primitives *p = &build->a->prims;
     accel_box *box = &p->box[id];
     if (sort == BOUNDED) {
         *box = box_padded(box);
         box_add(&p->bounds, box);
-        build->sizes[exponent_of(box_longest(box))]++;
         return append(build, &p->bounded, id);
     }
     if (sort == UNBOUNDED) {
@@ -263,15 +249,15 @@ static bool enter(struct build *build, uint32_t id, enum sort sort)
     }
     *box = box_empty();
     if (sort == DEGENERATE)
-        build->a->info.degenerate++;
+        build->info->degenerate++;
     else
-        note_invalid(&build->a->info, primitives_name(p, id));
+        note_invalid(build->info, primitives_name(p, id));
     return true;
 }
 
-static bool copy_geometry(struct build *build, const accel_geometry *from, uint32_t number)
+static bool copy_geometry(struct build *build, struct primitives *p, const accel_geometry *from,
+                          uint32_t number)
 {
-    struct primitives *p = &build->a->prims;
     struct geometry *g = &p->geometry[number];
     const size_t words = primitives_words(g);
     for (uint32_t i = 0; i < g->count; i++) {
@@ -281,7 +267,7 @@ static bool copy_geometry(struct build *build, const accel_geometry *from, uint3
         const enum sort sort = copy_primitive(from, g, i, &p->box[id]);
         if (sort == BOUNDED && words > 0)
             p->data_seal += seal_primitive(id, g->data + words * i, words);
-        if (!enter(build, id, sort))
+        if (!enter(build, p, id, sort))
             return false;
         p->box_seal += seal_primitive(id, &p->box[id], PRIMITIVES_BOX_WORDS);
         if (i % 4096 == 0 && !accel_build_tick(build, (double)id / p->count))
@@ -292,13 +278,13 @@ static bool copy_geometry(struct build *build, const accel_geometry *from, uint3
 
 static double mean_cost(const struct primitives *p)
 {
-    static const double cost[] = {TRIANGLE_COST, SPHERE_COST, OBJECT_COST};
+    static const double cost[] = {COST_TRIANGLE, COST_SPHERE, COST_OBJECT};
     double sum = 0.0, count = 0.0;
     for (uint32_t g = 0; g < p->geometry_count; g++) {
         sum += cost[p->geometry[g].type] * p->geometry[g].count;
         count += p->geometry[g].count;
     }
-    return count > 0.0 ? sum / count : TRIANGLE_COST;
+    return count > 0.0 ? sum / count : COST_TRIANGLE;
 }
 
 static uint32_t scene_size(const accel_scene *scene)
@@ -325,11 +311,10 @@ static bool by_key(const struct primitives *p)
     return true;
 }
 
-static void describe(struct build *build)
+static void describe(struct build *build, const struct primitives *p)
 {
-    const struct primitives *p = &build->a->prims;
     if (!p->geometry_of)
-        accel_build_left_out(build, p->count * sizeof *p->geometry_of, build->a->memory.bytes,
+        accel_build_left_out(build, p->count * sizeof *p->geometry_of, build->memory->bytes,
                              "one geometry: no table of each primitive's geometry");
     if (p->only_triangles)
         accel_build_left_out(
@@ -338,14 +323,13 @@ static void describe(struct build *build)
             "time only)");
 }
 
-bool accel_primitives_copy(struct build *build, const accel_scene *scene)
+bool accel_primitives_copy(struct build *build, struct primitives *p, const accel_scene *scene)
 {
-    struct primitives *p = &build->a->prims;
     if (!check(build, scene))
         return false;
     const uint32_t total = scene_size(scene);
-    build->a->info.primitives = total;
-    if (!allocate_all(build, scene, total))
+    build->info->primitives = total;
+    if (!allocate_all(build, p, scene, total))
         return false;
     uint32_t first = 0;
     for (uint32_t g = 0; g < scene->count; g++) {
@@ -362,14 +346,14 @@ bool accel_primitives_copy(struct build *build, const accel_scene *scene)
     p->by_key = by_key(p);
     if (total == 0)
         return true;
-    if (!array_reserve(&build->a->memory, &p->bounded, total))
+    if (!array_reserve(build->memory, &p->bounded, total))
         return accel_build_no_memory(build);
     for (uint32_t g = 0; g < scene->count; g++)
-        if (!copy_geometry(build, &scene->geometries[g], g))
+        if (!copy_geometry(build, p, &scene->geometries[g], g))
             return false;
-    build->a->info.unbounded = p->unbounded.count;
-    array_trim(&build->a->memory, &p->bounded);
-    describe(build);
+    build->info->unbounded = p->unbounded.count;
+    array_trim(build->memory, &p->bounded);
+    describe(build, p);
     return true;
 }
 

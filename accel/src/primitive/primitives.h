@@ -49,11 +49,11 @@ struct primitives {
     uint64_t box_seal;         /* over all boxes: see seal.h */
     uint64_t data_seal;        /* over the triangles and spheres that are bounded */
     uint64_t geometry_seal;    /* over the geometries, once all is built */
-    double test_cost;          /* mean cost of a test in units of visiting a node */
+    double test_cost;          /* mean cost of a test: see cost.h */
 };
 
-/* Copies and checks the scene, filling the counts in build->a->info. False: see build->error. */
-bool accel_primitives_copy(struct build *build, const accel_scene *scene);
+/* Copies and checks the scene, filling the counts in build->info. False: see build->error. */
+bool accel_primitives_copy(struct build *build, struct primitives *p, const accel_scene *scene);
 
 /* Where there are only bounded triangles, and the kind keeps their vertices: frees vertices, boxes
  * and the list of ids (not its count), for good. */

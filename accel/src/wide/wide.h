@@ -20,7 +20,9 @@
 #ifndef ACCEL_WIDE_H
 #define ACCEL_WIDE_H
 
-#include "../core/kind.h"
+#include "../core/build.h"
+#include "../core/cost.h"
+#include "../core/structure.h"
 #include "../primitive/query.h"
 
 /* Children of a node at most; levels of a tree at most; primitives of a block at most. */
@@ -134,9 +136,9 @@ bool accel_wide_find_box(const struct wide *w, uint32_t id, accel_box *box);
 
 /* What leaves look like and cost. */
 struct wide_rule {
-    unsigned lanes;   /* primitives that a leaf tests at once */
-    bool pool;        /* share vertices */
-    double node_cost; /* of a visit, in units of testing `lanes` primitives */
+    unsigned lanes;  /* primitives that a leaf tests at once */
+    bool pool;       /* share vertices */
+    float node_cost; /* of a visit: see cost.h */
 };
 
 /* How the binary tree is cut. */

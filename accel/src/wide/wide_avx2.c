@@ -7,7 +7,9 @@
 #include <immintrin.h>
 
 #include "../core/contract.h"
-#include "../core/kind.h"
+#include "../core/build.h"
+#include "../core/cost.h"
+#include "../core/structure.h"
 #include "../primitive/query.h"
 #include "wide_isa.h"
 
@@ -185,7 +187,7 @@ static bool works_here(void)
 const struct wide_isa accel_wide_avx2 = {
     .name = "avx2",
     .works_here = works_here,
-    .rule = {.lanes = 4, .pool = false, .node_cost = 1.0},
+    .rule = {.lanes = 4, .pool = false, .node_cost = COST_WIDE_NODE},
     .closest = closest,
     .any = any,
     .walk = walk,

@@ -8,7 +8,9 @@
 #include <immintrin.h>
 
 #include "../core/contract.h"
-#include "../core/kind.h"
+#include "../core/build.h"
+#include "../core/cost.h"
+#include "../core/structure.h"
 #include "../primitive/query.h"
 #include "wide_isa.h"
 
@@ -236,7 +238,7 @@ static bool works_here(void)
 const struct wide_isa accel_wide_avx512 = {
     .name = "avx512",
     .works_here = works_here,
-    .rule = {.lanes = 8, .pool = true, .node_cost = 1.0},
+    .rule = {.lanes = 8, .pool = true, .node_cost = COST_WIDE_NODE},
     .closest = closest,
     .any = any,
     .walk = walk,

@@ -34,13 +34,6 @@ enum { ALL_AXES = 7, CLUSTER_DEPTH = 48 };
 /* Fewer items are not worth a thread. */
 enum { LEAST_OF_THREAD = 8192 };
 
-/* What a leaf costs beside its tests, that of spheres in all lanes, and that of an object, which
- * has none beside it: its box is asked, then its host; in units of testing triangles in all lanes.
- */
-#define LEAF_COST    0.3f
-#define SPHERES_COST 1.0f
-#define OBJECT_COST  4.0f
-
 struct bounds {
     four lo, hi; /* the fourth is not used */
 };
@@ -322,8 +315,8 @@ static float leaf_cost(const struct grower *g, const struct wide_item *at, uint3
         spheres += type == ACCEL_SPHERES;
         objects += type == ACCEL_OBJECTS;
     }
-    return LEAF_COST + in_lanes(g, count - spheres - objects) +
-           SPHERES_COST * in_lanes(g, spheres) + OBJECT_COST * (float)objects;
+    return COST_WIDE_LEAF + COST_WIDE_TRIANGLES * in_lanes(g, count - spheres - objects) +
+           COST_WIDE_SPHERES * in_lanes(g, spheres) + COST_WIDE_OBJECT * (float)objects;
 }
 
 /* The cheapest sharing of `slots` slots between the sides. */
@@ -355,7 +348,7 @@ static void join(const struct grower *g, struct wide_binary *node, float surface
         node->left[j] = share(side, j, &shared);
         out->as[j] = shared;
     }
-    const float inner = surface * (float)g->rule.node_cost + shared;
+    const float inner = surface * g->rule.node_cost + shared;
     node->left_of_all = node->left[out->slots];
     node->leaf = leaf <= inner;
     out->as[1] = node->leaf ? leaf : inner;

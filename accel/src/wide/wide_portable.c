@@ -149,7 +149,7 @@ static bool works_here(void)
 const struct wide_isa accel_wide_portable = {
     .name = "portable",
     .works_here = works_here,
-    .rule = {.lanes = 2, .pool = false, .node_cost = 2.0},
+    .rule = {.lanes = 2, .pool = false, .node_cost = COST_WIDE_PORTABLE},
     .closest = closest,
     .any = any,
     .walk = walk,
