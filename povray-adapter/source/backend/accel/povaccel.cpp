@@ -15,6 +15,7 @@
  *******************************************************************************/
 
 #include <algorithm>
+#include <cfloat>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
@@ -179,8 +180,7 @@ static void Test_Object(accel_probe *probe)
 	if(query.TestLeaf(object) == true)
 	{
 		query.leafHits++;
-		// of equal depths the first object counts
-		if((query.candidate.Depth == query.firstDepth) && (probe->prim > query.firstUnbounded))
+		if(query.FirstIsBefore(probe->prim))
 			return;
 		if(accel_report(probe, query.candidate.Depth, 0.0, 0.0))
 			query.best = query.candidate;
@@ -298,11 +298,9 @@ void Accelerator::Build(const SceneData& scene, Task& task)
 
 static boost::mutex buildMutex;
 
-/// The part whose boxes hold the hits of a ray from there, which is built if need be; NULL if there is none.
-const Accelerator::Part *Accelerator::ChoosePart(const VECTOR origin) const
+/// The part whose boxes hold the hits of a ray from outside the reach of the first, which is built if need be; NULL if there is none.
+const Accelerator::Part *Accelerator::FarPart(const VECTOR origin) const
 {
-	if(parts[0].reach.Holds(origin))
-		return &parts[0];
 	for(int i = 1; i < ACCEL_REACHES; i++)
 	{
 		Part& part = parts[i];
@@ -380,9 +378,10 @@ bool Accelerator::FindInPart(const Part& part, AccelQuery& query, accel_query& c
 
 	Assign_Vector(ray.org, query.ray.Origin);
 	Assign_Vector(ray.dir, query.ray.Direction);
-	// The leaf test of a subsurface ray has no lower limit for the depth; all others report at least MIN_ISECT_DEPTH.
-	ray.tmin = query.ray.IsSubsurfaceRay() ? -HUGE_VAL : 0.0;
-	ray.tmax = (query.firstUnbounded != ACCEL_NONE) ? nextafter(query.firstDepth, HUGE_VAL) : limit;
+	// No leaf test reports less than MIN_ISECT_DEPTH, but that of a subsurface ray may. So an object that the ray leaves at
+	// once is not asked. The interval is open.
+	ray.tmin = query.ray.IsSubsurfaceRay() ? -HUGE_VAL : MIN_ISECT_DEPTH * (1.0 - DBL_EPSILON);
+	ray.tmax = (query.firstUnbounded != ACCEL_NONE) ? query.firstDepth + fabs(query.firstDepth) * DBL_EPSILON + DBL_MIN : limit;
 	ray.skip.geom = ray.skip.prim = ACCEL_NONE;
 	hit.prim = ACCEL_NONE;
 
@@ -399,7 +398,7 @@ bool Accelerator::FindInPart(const Part& part, AccelQuery& query, accel_query& c
 bool Accelerator::Find(Trace& trace, AccelQuery& query) const
 {
 	const DBL limit = query.best.Depth;
-	const Part *part = ChoosePart(query.ray.Origin);
+	const Part *part = parts[0].reach.Holds(query.ray.Origin) ? &parts[0] : FarPart(query.ray.Origin);
 	accel_query counters = { &query, 0, 0, 0, 0 };
 	uint32_t index = ACCEL_NONE;
 	bool found = false;

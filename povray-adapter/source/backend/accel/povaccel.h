@@ -108,7 +108,7 @@ class Accelerator
 		class BoxCheck;
 
 		void BuildPart(Part& part, const accel_hooks *hooks, accel_error& error) const;
-		const Part *ChoosePart(const VECTOR origin) const;
+		const Part *FarPart(const VECTOR origin) const;
 		bool Find(Trace& trace, AccelQuery& query) const;
 		bool FindInPart(const Part& part, AccelQuery& query, accel_query& counters, uint32_t& index) const;
 		void Verify(Trace& trace, const AccelQuery& query, const Part *part, DBL limit, bool found, uint32_t index) const;
