@@ -48,13 +48,6 @@ namespace pov
 
 using boost::format;
 
-static bool Never_Hit(const ObjectBase *object)
-{
-	const LightSource *light = dynamic_cast<const LightSource *>(object);
-
-	return (light != NULL) && light->children.empty();
-}
-
 
 
 /*****************************************************************************
@@ -116,21 +109,40 @@ void Accelerator::CheckOptions(const SceneData& scene) const
 	accel_free(empty);
 }
 
-/// Lets the user watch, pause and stop a build.
-class AccelProgress
+/// Lets the user pause and stop a build. The library calls Report; exceptions must not pass through it.
+class AccelBuildHook
 {
 	public:
-		AccelProgress(const SceneData& sd, Task& t) : scene(sd), task(t), lastProgressTime(0) { }
+		virtual ~AccelBuildHook() { }
 
-		/// The library calls this; exceptions must not pass through it.
+		accel_hooks Hooks()
+		{
+			accel_hooks hooks = accel_hooks();
+
+			hooks.user = this;
+			hooks.progress = &AccelBuildHook::Report;
+
+			return hooks;
+		}
+
+		void RethrowIfStopped() const
+		{
+			if(stopped)
+				std::rethrow_exception(stopped);
+		}
+	private:
+		std::exception_ptr stopped;
+
+		/// Throws to stop.
+		virtual void Cooperate(const char *phase, double done) = 0;
+
 		static bool Report(void *user, const char *phase, double done)
 		{
-			AccelProgress& self = *reinterpret_cast<AccelProgress *>(user);
+			AccelBuildHook& self = *reinterpret_cast<AccelBuildHook *>(user);
 
 			try
 			{
-				self.Send(phase, done);
-				self.task.Cooperate(); // CurrentTaskCooperate knows the tasks of the thread that made them only
+				self.Cooperate(phase, done);
 			}
 			catch(...)
 			{
@@ -140,18 +152,35 @@ class AccelProgress
 
 			return true;
 		}
+};
 
-		void RethrowIfStopped() const
-		{
-			if(stopped)
-				std::rethrow_exception(stopped);
-		}
+/// For a build that a ray waits for.
+class AccelRenderHook : public AccelBuildHook
+{
+	public:
+		explicit AccelRenderHook(Trace::CooperateFunctor& c) : cooperate(c) { }
+	private:
+		Trace::CooperateFunctor& cooperate;
+
+		virtual void Cooperate(const char *, double) { cooperate(); }
+};
+
+/// Lets the user watch the first build as well.
+class AccelProgress : public AccelBuildHook
+{
+	public:
+		AccelProgress(const SceneData& sd, Task& t) : scene(sd), task(t), lastProgressTime(0) { }
 	private:
 		const SceneData& scene;
 		Task& task;
 		Timer timer;
 		POV_LONG lastProgressTime;
-		std::exception_ptr stopped;
+
+		virtual void Cooperate(const char *phase, double done)
+		{
+			Send(phase, done);
+			task.Cooperate(); // CurrentTaskCooperate knows the tasks of the thread that made them only
+		}
 
 		void Send(const char *phase, double done)
 		{
@@ -233,6 +262,7 @@ void Accelerator::BuildPart(Part& part, const accel_hooks *hooks, accel_error& e
 
 	if(verify)
 		part.boxes = boxes;
+	part.unbounded.clear(); // of a build that was stopped
 	for(size_t i = 0; i < boxes.size(); i++)
 	{
 		if(!Is_Finite(boxes[i]) && !Is_Empty(boxes[i]))
@@ -263,7 +293,7 @@ void Accelerator::Build(const SceneData& scene, Task& task)
 {
 	for(vector<ObjectPtr>::const_iterator i = scene.objects.begin(); i != scene.objects.end(); i++)
 	{
-		if(Never_Hit(*i) == false)
+		if(Is_Dark_Light(*i) == false)
 			objects.push_back(*i);
 	}
 	lightsLeftOut = scene.objects.size() - objects.size();
@@ -278,9 +308,7 @@ void Accelerator::Build(const SceneData& scene, Task& task)
 
 	const vector<accel_ray> pilot = Camera_Pilot(scene.parsedCamera);
 	AccelProgress progress(scene, task);
-	accel_hooks hooks = accel_hooks();
-	hooks.user = &progress;
-	hooks.progress = &AccelProgress::Report;
+	accel_hooks hooks = progress.Hooks();
 	hooks.pilot = pilot.data();
 	hooks.pilot_count = pilot.size();
 	accel_error error;
@@ -299,7 +327,7 @@ void Accelerator::Build(const SceneData& scene, Task& task)
 static boost::mutex buildMutex;
 
 /// The part whose boxes hold the hits of a ray from outside the reach of the first, which is built if need be; NULL if there is none.
-const Accelerator::Part *Accelerator::FarPart(const VECTOR origin) const
+const Accelerator::Part *Accelerator::FarPart(const VECTOR origin, Trace::CooperateFunctor& cooperate) const
 {
 	for(int i = 1; i < ACCEL_REACHES; i++)
 	{
@@ -310,11 +338,14 @@ const Accelerator::Part *Accelerator::FarPart(const VECTOR origin) const
 			if(part.built == false)
 			{
 				boost::mutex::scoped_lock lock(buildMutex);
+				AccelRenderHook hook(cooperate);
+				const accel_hooks hooks = hook.Hooks();
 				accel_error error;
 
 				if(part.built == false)
 				{
-					BuildPart(part, NULL, error);
+					BuildPart(part, &hooks, error);
+					hook.RethrowIfStopped();
 					if(part.built == false)
 						Throw_Library_Error(error);
 				}
@@ -335,19 +366,20 @@ const Accelerator::Part *Accelerator::FarPart(const VECTOR origin) const
  *
  *****************************************************************************/
 
-bool Accelerator::FindIntersection(Trace& trace, TraceThreadData *thread, Intersection& bestisect, const Ray& ray) const
+bool Accelerator::FindIntersection(Trace& trace, Trace::CooperateFunctor& cooperate, TraceThreadData *thread, Intersection& bestisect,
+                                   const Ray& ray) const
 {
 	AccelQuery query(objects, ray, NULL, NULL, thread, bestisect);
 
-	return Find(trace, query);
+	return Find(trace, cooperate, query);
 }
 
-bool Accelerator::FindIntersection(Trace& trace, TraceThreadData *thread, Intersection& bestisect, const Ray& ray,
-                                   const RayObjectCondition& precondition, const RayObjectCondition& postcondition) const
+bool Accelerator::FindIntersection(Trace& trace, Trace::CooperateFunctor& cooperate, TraceThreadData *thread, Intersection& bestisect,
+                                   const Ray& ray, const RayObjectCondition& precondition, const RayObjectCondition& postcondition) const
 {
 	AccelQuery query(objects, ray, &precondition, &postcondition, thread, bestisect);
 
-	return Find(trace, query);
+	return Find(trace, cooperate, query);
 }
 
 /// The unbounded objects as a linear search would test them, then the structure for what is nearer, or as near and before them.
@@ -395,10 +427,10 @@ bool Accelerator::FindInPart(const Part& part, AccelQuery& query, accel_query& c
 	return index != ACCEL_NONE;
 }
 
-bool Accelerator::Find(Trace& trace, AccelQuery& query) const
+bool Accelerator::Find(Trace& trace, Trace::CooperateFunctor& cooperate, AccelQuery& query) const
 {
 	const DBL limit = query.best.Depth;
-	const Part *part = parts[0].reach.Holds(query.ray.Origin) ? &parts[0] : FarPart(query.ray.Origin);
+	const Part *part = parts[0].reach.Holds(query.ray.Origin) ? &parts[0] : FarPart(query.ray.Origin, cooperate);
 	accel_query counters = { &query, 0, 0, 0, 0 };
 	uint32_t index = ACCEL_NONE;
 	bool found = false;

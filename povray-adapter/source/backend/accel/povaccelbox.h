@@ -22,6 +22,9 @@ namespace pov
 
 class SceneData;
 
+/// A light source without looks_like: no test ever finds it.
+bool Is_Dark_Light(const ObjectBase *object);
+
 /// Where rays begin that boxes are made for, each within the next. Most begin in the first, near the camera, where rounding is
 /// small.
 void Find_Reaches(const SceneData& scene, const vector<ObjectPtr>& objects, AccelReach reach[ACCEL_REACHES]);
