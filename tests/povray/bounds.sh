@@ -7,6 +7,7 @@
 #
 #     // red: COUNT             pixels that are pure red
 #     // unbounded: COUNT       objects without a box: no more than need be
+#     // refused: COUNT         rays that are searched linearly, where it matters
 #     // options: OPTION...     rendered with these; one line for each way to render
 #
 # A box that holds no hits shows as a difference or, where no ray of the picture proves it, as a hit
@@ -47,16 +48,18 @@ check_render() {
     [ "${found:-no}" = 0 ] || complain "$what: ${found:-no} hits outside their box"
     found=$(statistic "$what.log" '^  Objects:' 4)
     [ "${found:-no}" = "$unbounded" ] || complain "$what: ${found:-no} unbounded objects, not $unbounded"
+    found=$(statistic "$what.log" '^Accelerator refused:' 3)
+    [ "${refused:-${found:-0}}" = "${found:-0}" ] || complain "$what: ${found:-0} rays refused, not $refused"
 }
 
 # One case in a folder of its own.
 run_case() {
-    local file=$1 name unbounded red found options way=0 kind
+    local file=$1 name unbounded refused red found options way=0 kind
     name=$(basename "$file" .pov)
     mkdir -p "$out/$name"
     cd "$out/$name"
     rm -f ./*
-    unbounded=$(stated "$file" unbounded) red=$(stated "$file" red)
+    unbounded=$(stated "$file" unbounded) refused=$(stated "$file" refused) red=$(stated "$file" red)
     while read -ra options; do
         way=$((way + 1))
         render linear.log $size "$stock" +I"$file" +MB1 -MB +Olinear.ppm "${options[@]}" ||

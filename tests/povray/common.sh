@@ -52,8 +52,15 @@ pixels() {
     tail -c $((${2%x*} * ${2#*x} * 6)) "$1"
 }
 
-# different_pixels A.ppm B.ppm WxH: how many
+# different_pixels A.ppm B.ppm WxH: how many; all, if a picture is missing or not whole
 different_pixels() {
+    local count=$((${3%x*} * ${3#*x})) file
+    for file in "$1" "$2"; do
+        if [ "$(pixels "$file" "$3" 2>/dev/null | wc -c)" -ne $((count * 6)) ]; then
+            echo $count
+            return
+        fi
+    done
     { cmp -l <(pixels "$1" "$3") <(pixels "$2" "$3") || true; } |
         awk '{ print int(($1 - 1) / 6) }' | uniq | wc -l
 }

@@ -7,6 +7,7 @@
 #include "../primitive/query.h"
 #include "../wide/wide_isa.h"
 
+#include <stddef.h>
 #include <string.h>
 
 static bool valid(const accel *a, const accel_ray *ray)
@@ -34,9 +35,11 @@ static void prepare_slabs(struct query *q)
     }
 }
 
-/* What the shear test needs. */
+/* What the shear test needs, if anything is tested by it. */
 static void prepare_shear(struct query *q)
 {
+    if (!q->prims->triangles)
+        return;
     int kz = fabs(q->dir[1]) > fabs(q->dir[0]) ? 1 : 0;
     kz = fabs(q->dir[2]) > fabs(q->dir[kz]) ? 2 : kz;
     const int kx = (kz + 1) % 3, ky = (kz + 2) % 3;
@@ -50,7 +53,7 @@ static void prepare_shear(struct query *q)
 
 static void prepare(struct query *q, const accel *a, const accel_ray *ray, accel_query *caller)
 {
-    memset(q, 0, sizeof *q);
+    memset(q, 0, offsetof(struct query, mailbox));
     q->prims = &a->prims;
     memcpy(q->org, ray->org, sizeof q->org);
     memcpy(q->dir, ray->dir, sizeof q->dir);
@@ -114,10 +117,9 @@ static accel_hit hit_from(const struct primitives *p, const struct found *f)
 static bool find_first(struct query *q, const accel *a, const accel_ray *ray, bool any,
                        struct found *found, accel_query *caller)
 {
-    uint16_t order;
     prepare(q, a, ray, caller);
     prepare_shear(q);
-    give_room(q, found, &order, 1);
+    give_room(q, found, NULL, 1);
     q->any = any;
     walk(q, a);
     account(q);

@@ -303,6 +303,14 @@ static bool only_triangles(const struct primitives *p)
     return true;
 }
 
+static bool has_triangles(const struct primitives *p)
+{
+    for (uint32_t g = 0; g < p->geometry_count; g++)
+        if (p->geometry[g].type == ACCEL_TRIANGLES && p->geometry[g].count > 0)
+            return true;
+    return false;
+}
+
 static bool by_key(const struct primitives *p)
 {
     for (uint32_t g = 0; g < p->geometry_count; g++)
@@ -342,6 +350,7 @@ bool accel_primitives_copy(struct build *build, struct primitives *p, const acce
     }
     p->bounds = box_empty();
     p->test_cost = mean_cost(p);
+    p->triangles = has_triangles(p);
     p->only_triangles = only_triangles(p);
     p->by_key = by_key(p);
     if (total == 0)

@@ -43,6 +43,7 @@ struct primitives {
     struct ids bounded;        /* what structures are built over, rising */
     struct ids unbounded;      /* objects with an infinite side, rising */
     accel_box bounds;          /* around the padded boxes of all that is bounded */
+    bool triangles;            /* there are some */
     bool only_triangles;       /* no spheres, no objects */
     bool by_key;               /* no objects whose hits are ordered as reported */
     bool left;                 /* the kind alone has the triangles: see accel_primitives_leave */

@@ -49,10 +49,26 @@ static void set_limit(struct query *q, const struct found *last)
     q->end = last->id;
 }
 
+/* Of a query for one hit: keeps the first. */
+static bool keep_first(struct query *q, const struct found *hit)
+{
+    if (q->count > 0 && !before(hit->key, hit->id, &q->found[0]))
+        return false;
+    q->count = 1;
+    q->found[0] = *hit;
+    if (q->any)
+        q->limit = -(double)INFINITY;
+    else
+        set_limit(q, hit);
+    return true;
+}
+
 /* Keeps a hit if it is among the first `room`, in place of the last if there are that many. A hit
  * that is there already is not kept again, so a primitive may be tested any number of times. */
 static bool keep(struct query *q, const struct found *hit)
 {
+    if (q->capacity == 1)
+        return keep_first(q, hit);
     if (q->batch && !after(hit->key, hit->id, &q->last))
         return false;
     if (q->pile && hit->key != q->last.key)
@@ -67,9 +83,7 @@ static bool keep(struct query *q, const struct found *hit)
     memmove(&q->order[at + 1], &q->order[at], (q->count - 1 - at) * sizeof *q->order);
     q->order[at] = to;
     q->found[to] = *hit;
-    if (q->any)
-        q->limit = -(double)INFINITY;
-    else if (q->count == q->capacity)
+    if (q->count == q->capacity)
         set_limit(q, &q->found[q->order[q->count - 1]]);
     return true;
 }
@@ -241,6 +255,16 @@ static void test_triangles(struct query *q, const uint32_t *ids, size_t count)
     }
     if (held == 1 && !query_done(q))
         test_survivor(q, id[0], vertices[0]);
+}
+
+void accel_query_test_once(struct query *q, const uint32_t *ids, size_t count)
+{
+    if (q->pile) {
+        test_pile(q, ids, count, true);
+        return;
+    }
+    for (size_t i = 0; i < count && !query_done(q); i++)
+        test(q, ids[i], true);
 }
 
 void accel_query_test_list(struct query *q, const uint32_t *ids, size_t count)

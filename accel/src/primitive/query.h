@@ -68,7 +68,7 @@ struct query {
     uint32_t skip;            /* id that the ray leaves, or ACCEL_NONE */
     double limit;             /* a hit with a greater key cannot matter */
     struct found *found;      /* the first hits so far */
-    uint16_t *order;          /* their places, by (key, id) */
+    uint16_t *order;          /* their places, by (key, id); NULL where there is room for one */
     uint32_t count, capacity; /* of them; there is room for */
     bool any;                 /* the first hit ends the query */
     struct found last;        /* of the batch before: the order goes on after it */
@@ -78,7 +78,7 @@ struct query {
     const accel_ray *ray;     /* the caller's ray as the callbacks see it */
     uint64_t nodes, tests;    /* visited and tested so far */
     uint64_t outside;         /* raw hits before their box */
-    uint32_t mailbox[QUERY_MAILBOXES]; /* ids tested lately */
+    uint32_t mailbox[QUERY_MAILBOXES]; /* ids tested lately; last, as each walk sets it */
 };
 
 /* 1 / dir of an axis that the ray is not parallel to. Where that is flushed to zero, infinity times
@@ -196,6 +196,9 @@ static inline bool query_done(const struct query *q)
 /* Tests a leaf's primitives and keeps those hits that are among the first. Leaves out what was
  * tested lately, and objects whose box begins after the limit. */
 void accel_query_test_list(struct query *q, const uint32_t *ids, size_t count);
+
+/* The same where no primitive is met twice: what was tested lately is not asked. */
+void accel_query_test_once(struct query *q, const uint32_t *ids, size_t count);
 
 /* For kinds that keep the data of primitives themselves: a hit of a triangle or sphere, and a box
  * that a point query may be in. padded: P'. */

@@ -135,16 +135,17 @@ __attribute__((always_inline)) static inline bool test_blocks(struct wide_fast *
                                                               const struct wide_block *b, bool any)
 {
     bool better = false;
-    if (!f->comes_to_leaves) {
-        leaf_ray_from(&f->leaf, f->caller);
-        f->comes_to_leaves = true;
-    }
     for (;; b = wide_next_block(b)) {
         f->tests += b->count;
-        if (__builtin_expect(b->type == WIDE_LIST, 0))
+        if (__builtin_expect(b->type == WIDE_LIST, 0)) {
             better |= accel_wide_test_list(f, wide_block_ids(b), b->count, any);
-        else
+        } else {
+            if (!f->comes_to_leaves) {
+                leaf_ray_from(&f->leaf, f->caller);
+                f->comes_to_leaves = true;
+            }
             better |= leaf_test(f, b, any);
+        }
         if (b->last || (any && better))
             return better;
     }

@@ -9,8 +9,6 @@
 #include "../primitive/sphere.h"
 #include "../primitive/triangle.h"
 
-#include <string.h>
-
 #if defined(__x86_64__) && defined(__GNUC__)
 #define X86 1
 extern const struct wide_isa accel_wide_avx512, accel_wide_avx2;
@@ -28,12 +26,9 @@ static struct query *prepare(struct wide_fast *f)
     struct query *q = &f->q;
     if (!f->prepared) {
         accel_query_prepare(q, f->a, f->caller);
-        memset(q->mailbox, 0xff, sizeof q->mailbox);
         q->caller = f->counters;
         q->found = &f->found;
-        q->order = &f->order;
         q->capacity = 1;
-        f->order = 0;
         f->prepared = true;
     }
     q->count = f->id != ACCEL_NONE;
@@ -91,6 +86,6 @@ bool accel_wide_test_list(struct wide_fast *f, const uint32_t *ids, size_t count
 {
     struct query *q = prepare(f);
     q->any = any;
-    accel_query_test_list(q, ids, count);
+    accel_query_test_once(q, ids, count);
     return take_over(f);
 }

@@ -52,7 +52,6 @@ struct wide_fast {
     accel_query *counters; /* the caller's, or NULL */
     struct query q;        /* for what goes the whole way */
     struct found found;    /* its one hit */
-    uint16_t order;
 };
 
 /* The i-th triangle or sphere of a block by the whole rule of query.h. True if it is the best hit

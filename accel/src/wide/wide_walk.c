@@ -125,7 +125,7 @@ void accel_wide_test_leaf(const struct wide *w, struct query *q, uint32_t word)
     const struct wide_block *b = wide_leaf_at(w, word);
     for (;; b = wide_next_block(b)) {
         if (b->type >= WIDE_SPHERES)
-            accel_query_test_list(q, wide_block_ids(b), b->count);
+            accel_query_test_once(q, wide_block_ids(b), b->count);
         else
             test_triangles(q, b);
         if (b->last || query_done(q))

@@ -15,6 +15,7 @@
  *******************************************************************************/
 
 #include <algorithm>
+#include <cfloat>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
@@ -47,6 +48,7 @@ namespace pov
 {
 
 using boost::format;
+
 
 
 /*****************************************************************************
@@ -111,21 +113,40 @@ void Accelerator::CheckOptions(const SceneData& scene) const
 	accel_free(empty);
 }
 
-/// Lets the user watch, pause and stop a build.
-class AccelProgress
+/// Lets the user pause and stop a build. The library calls Report; exceptions must not pass through it.
+class AccelBuildHook
 {
 	public:
-		AccelProgress(const SceneData& sd, Task& t) : scene(sd), task(t), lastProgressTime(0) { }
+		virtual ~AccelBuildHook() { }
 
-		/// The library calls this; exceptions must not pass through it.
+		accel_hooks Hooks()
+		{
+			accel_hooks hooks = accel_hooks();
+
+			hooks.user = this;
+			hooks.progress = &AccelBuildHook::Report;
+
+			return hooks;
+		}
+
+		void RethrowIfStopped() const
+		{
+			if(stopped)
+				std::rethrow_exception(stopped);
+		}
+	private:
+		std::exception_ptr stopped;
+
+		/// Throws to stop.
+		virtual void Cooperate(const char *phase, double done) = 0;
+
 		static bool Report(void *user, const char *phase, double done)
 		{
-			AccelProgress& self = *reinterpret_cast<AccelProgress *>(user);
+			AccelBuildHook& self = *reinterpret_cast<AccelBuildHook *>(user);
 
 			try
 			{
-				self.Send(phase, done);
-				self.task.Cooperate(); // CurrentTaskCooperate knows the tasks of the thread that made them only
+				self.Cooperate(phase, done);
 			}
 			catch(...)
 			{
@@ -135,18 +156,35 @@ class AccelProgress
 
 			return true;
 		}
+};
 
-		void RethrowIfStopped() const
-		{
-			if(stopped)
-				std::rethrow_exception(stopped);
-		}
+/// For a build that a ray waits for.
+class AccelRenderHook : public AccelBuildHook
+{
+	public:
+		explicit AccelRenderHook(Trace::CooperateFunctor& c) : cooperate(c) { }
+	private:
+		Trace::CooperateFunctor& cooperate;
+
+		virtual void Cooperate(const char *, double) { cooperate(); }
+};
+
+/// Lets the user watch the first build as well.
+class AccelProgress : public AccelBuildHook
+{
+	public:
+		AccelProgress(const SceneData& sd, Task& t) : scene(sd), task(t), lastProgressTime(0) { }
 	private:
 		const SceneData& scene;
 		Task& task;
 		Timer timer;
 		POV_LONG lastProgressTime;
-		std::exception_ptr stopped;
+
+		virtual void Cooperate(const char *phase, double done)
+		{
+			Send(phase, done);
+			task.Cooperate(); // CurrentTaskCooperate knows the tasks of the thread that made them only
+		}
 
 		void Send(const char *phase, double done)
 		{
@@ -175,8 +213,7 @@ static void Test_Object(accel_probe *probe)
 	if(query.TestLeaf(object) == true)
 	{
 		query.leafHits++;
-		// of equal depths the first object counts
-		if((query.candidate.Depth == query.firstDepth) && (probe->prim > query.firstUnbounded))
+		if(query.FirstIsBefore(probe->prim))
 			return;
 		if(accel_report(probe, query.candidate.Depth, 0.0, 0.0))
 			query.best = query.candidate;
@@ -229,6 +266,7 @@ void Accelerator::BuildPart(Part& part, const accel_hooks *hooks, accel_error& e
 
 	if(verify)
 		part.boxes = boxes;
+	part.unbounded.clear(); // of a build that was stopped
 	for(size_t i = 0; i < boxes.size(); i++)
 	{
 		if(!Is_Finite(boxes[i]) && !Is_Empty(boxes[i]))
@@ -277,9 +315,7 @@ void Accelerator::Build(const SceneData& scene, Task& task)
 {
 	const vector<accel_ray> pilot = Camera_Pilot(scene.parsedCamera);
 	AccelProgress progress(scene, task);
-	accel_hooks hooks = accel_hooks();
-	hooks.user = &progress;
-	hooks.progress = &AccelProgress::Report;
+	accel_hooks hooks = progress.Hooks();
 	hooks.pilot = pilot.data();
 	hooks.pilot_count = pilot.size();
 	accel_error error;
@@ -309,11 +345,9 @@ void Accelerator::FindBeyondBoxes()
 
 static boost::mutex buildMutex;
 
-/// The part whose boxes hold the hits of a ray from there, which is built if need be; NULL if there is none.
-const Accelerator::Part *Accelerator::ChoosePart(const VECTOR origin) const
+/// The part whose boxes hold the hits of a ray from outside the reach of the first, which is built if need be; NULL if there is none.
+const Accelerator::Part *Accelerator::FarPart(const VECTOR origin, Trace::CooperateFunctor& cooperate) const
 {
-	if(parts[0].reach.Holds(origin))
-		return &parts[0];
 	for(int i = 1; i < ACCEL_REACHES; i++)
 	{
 		Part& part = parts[i];
@@ -323,11 +357,14 @@ const Accelerator::Part *Accelerator::ChoosePart(const VECTOR origin) const
 			if(part.built == false)
 			{
 				boost::mutex::scoped_lock lock(buildMutex);
+				AccelRenderHook hook(cooperate);
+				const accel_hooks hooks = hook.Hooks();
 				accel_error error;
 
 				if(part.built == false)
 				{
-					BuildPart(part, NULL, error);
+					BuildPart(part, &hooks, error);
+					hook.RethrowIfStopped();
 					if(part.built == false)
 						Throw_Library_Error(error);
 				}
@@ -348,19 +385,20 @@ const Accelerator::Part *Accelerator::ChoosePart(const VECTOR origin) const
  *
  *****************************************************************************/
 
-bool Accelerator::FindIntersection(Trace& trace, TraceThreadData *thread, Intersection& bestisect, const Ray& ray) const
+bool Accelerator::FindIntersection(Trace& trace, Trace::CooperateFunctor& cooperate, TraceThreadData *thread, Intersection& bestisect,
+                                   const Ray& ray) const
 {
 	AccelQuery query(objects, ray, NULL, NULL, thread, bestisect);
 
-	return Find(trace, query);
+	return Find(trace, cooperate, query);
 }
 
-bool Accelerator::FindIntersection(Trace& trace, TraceThreadData *thread, Intersection& bestisect, const Ray& ray,
-                                   const RayObjectCondition& precondition, const RayObjectCondition& postcondition) const
+bool Accelerator::FindIntersection(Trace& trace, Trace::CooperateFunctor& cooperate, TraceThreadData *thread, Intersection& bestisect,
+                                   const Ray& ray, const RayObjectCondition& precondition, const RayObjectCondition& postcondition) const
 {
 	AccelQuery query(objects, ray, &precondition, &postcondition, thread, bestisect);
 
-	return Find(trace, query);
+	return Find(trace, cooperate, query);
 }
 
 /// The unbounded objects as a linear search would test them, then the structure for what is nearer, or as near and before them.
@@ -391,9 +429,10 @@ bool Accelerator::FindInPart(const Part& part, AccelQuery& query, accel_query& c
 
 	Assign_Vector(ray.org, query.ray.Origin);
 	Assign_Vector(ray.dir, query.ray.Direction);
-	// The leaf test of a subsurface ray has no lower limit for the depth; all others report at least MIN_ISECT_DEPTH.
-	ray.tmin = query.ray.IsSubsurfaceRay() ? -HUGE_VAL : 0.0;
-	ray.tmax = (query.firstUnbounded != ACCEL_NONE) ? nextafter(query.firstDepth, HUGE_VAL) : limit;
+	// No leaf test reports less than MIN_ISECT_DEPTH, but that of a subsurface ray may. So an object that the ray leaves at
+	// once is not asked. The interval is open.
+	ray.tmin = query.ray.IsSubsurfaceRay() ? -HUGE_VAL : MIN_ISECT_DEPTH * (1.0 - DBL_EPSILON);
+	ray.tmax = (query.firstUnbounded != ACCEL_NONE) ? query.firstDepth + fabs(query.firstDepth) * DBL_EPSILON + DBL_MIN : limit;
 	ray.skip.geom = ray.skip.prim = ACCEL_NONE;
 	hit.prim = ACCEL_NONE;
 
@@ -407,10 +446,10 @@ bool Accelerator::FindInPart(const Part& part, AccelQuery& query, accel_query& c
 	return index != ACCEL_NONE;
 }
 
-bool Accelerator::Find(Trace& trace, AccelQuery& query) const
+bool Accelerator::Find(Trace& trace, Trace::CooperateFunctor& cooperate, AccelQuery& query) const
 {
 	const DBL limit = query.best.Depth;
-	const Part *part = ChoosePart(query.ray.Origin);
+	const Part *part = parts[0].reach.Holds(query.ray.Origin) ? &parts[0] : FarPart(query.ray.Origin, cooperate);
 	accel_query counters = { &query, 0, 0, 0, 0 };
 	uint32_t index = ACCEL_NONE;
 	bool found = false;

@@ -23,6 +23,7 @@
 
 #include "base/povmscpp.h"
 #include "backend/frame.h"
+#include "backend/render/trace.h"
 #include "backend/support/statistics.h"
 #include "backend/accel/accel.h"
 #include "backend/accel/povaccelbox.h"
@@ -35,7 +36,6 @@ class AccelCsg;
 class MessageFactory;
 class SceneData;
 class Task;
-class Trace;
 struct AccelQuery;
 struct AccelPointQuery;
 
@@ -59,9 +59,10 @@ class Accelerator
 		void Build(const SceneData& scene, Task& task);
 
 		/// Finds the object nearest along a ray, nearer than bestisect.Depth, as a linear search would.
-		bool FindIntersection(Trace& trace, TraceThreadData *thread, Intersection& bestisect, const Ray& ray) const;
-		bool FindIntersection(Trace& trace, TraceThreadData *thread, Intersection& bestisect, const Ray& ray,
-		                      const RayObjectCondition& precondition, const RayObjectCondition& postcondition) const;
+		bool FindIntersection(Trace& trace, Trace::CooperateFunctor& cooperate, TraceThreadData *thread, Intersection& bestisect,
+		                      const Ray& ray) const;
+		bool FindIntersection(Trace& trace, Trace::CooperateFunctor& cooperate, TraceThreadData *thread, Intersection& bestisect,
+		                      const Ray& ray, const RayObjectCondition& precondition, const RayObjectCondition& postcondition) const;
 
 		/// Appends the interiors of all objects around a point, as a linear search would.
 		void FindContainingInteriors(const VECTOR point, AccelContainerSearch search, TraceThreadData *thread, RayInteriorVector& interiors) const;
@@ -118,8 +119,8 @@ class Accelerator
 		class BoxCheck;
 
 		void BuildPart(Part& part, const accel_hooks *hooks, accel_error& error) const;
-		const Part *ChoosePart(const VECTOR origin) const;
-		bool Find(Trace& trace, AccelQuery& query) const;
+		const Part *FarPart(const VECTOR origin, Trace::CooperateFunctor& cooperate) const;
+		bool Find(Trace& trace, Trace::CooperateFunctor& cooperate, AccelQuery& query) const;
 		bool FindInPart(const Part& part, AccelQuery& query, accel_query& counters, uint32_t& index) const;
 		void Verify(Trace& trace, const AccelQuery& query, const Part *part, DBL limit, bool found, uint32_t index) const;
 		void VerifyInteriors(const AccelPointQuery& query) const;

@@ -101,6 +101,9 @@ static void Find_Bounds_Of_Parts(const vector<const ObjectBase *>& objects, cons
 /// Where a hit may be if it is tested for being there: the point that is tested is wrong by `slack`.
 static AccelRegion As_Tested(const AccelRegion& side, const VECTOR slack, const AccelReach& reach)
 {
+	if(!(slack[X] + slack[Y] + slack[Z] < HUGE_VAL))
+		return Is_Empty(side.box) ? side : AccelRegion();
+
 	AccelRegion region(side);
 	DBL magnitude = MAX_DISTANCE + reach.radius;
 
@@ -365,13 +368,55 @@ static vector<DBL> Radii(const vector<accel_box>& boxes)
 	return radii;
 }
 
-/// How far from a point the finite boxes, and with photons the lights, reach along an axis.
+/// Where the rays of a camera begin, as TracePixel::CreateCameraRay says: on its meshes, on a plane or an axis, or within its
+/// aperture.
+static accel_box Origins_Of_Camera(const Camera& camera)
+{
+	DBL right, up;
+
+	VLength(right, camera.Right);
+	VLength(up, camera.Up);
+	if(camera.Type == MESH_CAMERA)
+	{
+		accel_box box = Empty_Box();
+
+		for(vector<ObjectPtr>::const_iterator mesh = camera.Meshes.begin(); mesh != camera.Meshes.end(); mesh++)
+		{
+			VECTOR low, high;
+
+			Make_min_max_from_BBox(low, high, (*mesh)->BBox);
+			Include_Point(box, low);
+			Include_Point(box, high);
+		}
+		Grow_Box(box, fabs(camera.Location[Z])); // how far before the mesh
+		return box;
+	}
+
+	const bool wide = (camera.Type == ORTHOGRAPHIC_CAMERA) || (camera.Type == CYL_3_CAMERA) || (camera.Type == CYL_4_CAMERA);
+
+	return Box_Around(camera.Location, (wide ? right + up : 0.0) + fabs(camera.Aperture));
+}
+
+/// The middle of a box, if it has one.
+static void Middle_Of(const accel_box& box, VECTOR middle)
+{
+	for(int axis = X; axis <= Z; axis++)
+	{
+		if(Is_Finite(box) && !Is_Empty(box))
+			middle[axis] = 0.5 * (box.lo[axis] + box.hi[axis]);
+	}
+}
+
+/// How far from a point the finite boxes, the camera, and with photons the lights, reach along an axis.
 static DBL Farthest_Place(const SceneData& scene, const vector<accel_box>& boxes, const VECTOR center)
 {
+	const accel_box camera = Origins_Of_Camera(scene.parsedCamera);
 	DBL farthest = 0.0;
 
 	for(int axis = X; axis <= Z; axis++)
 	{
+		if(Is_Finite(camera) && !Is_Empty(camera))
+			farthest = max(farthest, max(fabs(camera.lo[axis] - center[axis]), fabs(camera.hi[axis] - center[axis])));
 		for(vector<accel_box>::const_iterator box = boxes.begin(); box != boxes.end(); box++)
 		{
 			if(Is_Finite(*box) && !Is_Empty(*box))
@@ -466,6 +511,9 @@ void Find_Reaches(const SceneData& scene, const vector<ObjectPtr>& objects, Acce
 
 	Assign_Vector(point.center, scene.parsedCamera.Location);
 	point.radius = 0.0;
+
+	if(scene.parsedCamera.Type == MESH_CAMERA) // its Location is no place
+		Middle_Of(Origins_Of_Camera(scene.parsedCamera), point.center);
 
 	const vector<accel_box> boxes = Find_Boxes(objects, point);
 	const DBL radius = Small_Radius(boxes);

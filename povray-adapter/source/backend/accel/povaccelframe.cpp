@@ -107,6 +107,8 @@ void AccelFrame::FindSizes(const AccelReach& reach, const accel_box& shape, cons
 		slack[axis] = mismatch[axis] + ldexp(coordinate[axis], -48);
 		for(int k = X; k <= Z; k++)
 			slack[axis] += fabs(matrix[k][axis]) * rounding[k];
+		if(!(slack[axis] < HUGE_VAL)) // NaN would be lost where the largest of several is sought
+			slack[axis] = HUGE_VAL;
 	}
 }
 

@@ -35,6 +35,7 @@ struct AccelQuery
 	TraceThreadData *thread;
 	Intersection& best;
 	Intersection candidate;
+	bool prepared; // the next three: not before a leaf is tested, as most rays come to none
 	BBOX_VECT origin;
 	BBOX_VECT invdir;
 	ObjectBase::BBoxDirection variant;
@@ -45,13 +46,14 @@ struct AccelQuery
 
 	AccelQuery(const vector<ObjectPtr>& objs, const Ray& r, const RayObjectCondition *prec, const RayObjectCondition *postc,
 	           TraceThreadData *t, Intersection& bi) :
-		objects(objs), ray(r), precondition(prec), postcondition(postc), thread(t), best(bi), leafTests(0), leafHits(0), firstUnbounded(ACCEL_NONE), firstDepth(HUGE_VAL)
+		objects(objs), ray(r), precondition(prec), postcondition(postc), thread(t), best(bi), prepared(false), leafTests(0), leafHits(0), firstUnbounded(ACCEL_NONE), firstDepth(HUGE_VAL)
 	{
-		// as BSPIntersectFunctor does
-		Vector3d tmp(1.0 / ray.GetDirection()[X], 1.0 / ray.GetDirection()[Y], 1.0 / ray.GetDirection()[Z]);
-		Assign_Vector(origin, ray.Origin);
-		Assign_Vector(invdir, *tmp);
-		variant = (ObjectBase::BBoxDirection)((int(invdir[X] < 0.0) << 2) | (int(invdir[Y] < 0.0) << 1) | int(invdir[Z] < 0.0));
+	}
+
+	/// Does what was hit before the structure was asked come before the candidate? Of equal depths the first object counts.
+	bool FirstIsBefore(uint32_t index) const
+	{
+		return (firstDepth < candidate.Depth) || ((firstDepth == candidate.Depth) && (firstUnbounded < index));
 	}
 
 	bool MayHit(ObjectPtr object) const
@@ -59,8 +61,20 @@ struct AccelQuery
 		return (precondition == NULL) || (*precondition)(ray, object, 0.0);
 	}
 
+	/// As BSPIntersectFunctor does.
+	void Prepare()
+	{
+		Vector3d tmp(1.0 / ray.GetDirection()[X], 1.0 / ray.GetDirection()[Y], 1.0 / ray.GetDirection()[Z]);
+		Assign_Vector(origin, ray.Origin);
+		Assign_Vector(invdir, *tmp);
+		variant = (ObjectBase::BBoxDirection)((int(invdir[X] < 0.0) << 2) | (int(invdir[Y] < 0.0) << 1) | int(invdir[Z] < 0.0));
+		prepared = true;
+	}
+
 	bool TestLeaf(ObjectPtr object)
 	{
+		if(prepared == false)
+			Prepare();
 		if(postcondition != NULL)
 			return Find_Intersection(&candidate, object, ray, variant, origin, invdir, *postcondition, thread);
 		else

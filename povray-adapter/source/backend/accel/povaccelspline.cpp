@@ -178,8 +178,39 @@ void Bound_Shape(const Prism& prism, const AccelReach& reach, AccelBounds& bound
 		bounds.SetBody(frame, frame.ToScene(box), Test_Flag(&prism, INVERTED_FLAG));
 }
 
+/*
+ * What the leaf test of a straight segment of a sphere_sweep adds to the square of
+ * its radius. With the ray p + t*D, the centers C0 + u*C and the radii R0 + u*R the
+ * form F(t, u) = |p + t*D - C0 - u*C|^2 - (R0 + u*R)^2 is 0, and so is its derivative
+ * 2*d*u + e + b*t by u, with d = C*C - R*R and b = -2*C*D. With t from the latter,
+ * b*b * F = d * (4*d - b*b) * u^2 + ... is solved for u in 0..1, and a hit counts if
+ * |b| > ZERO_TOLERANCE (sphsweep.cpp: 1e-4).
+ *
+ * - solve_quadratic takes a discriminant, of the equation with leading coefficient 1,
+ *   for 0 if it is less than SMALL_ENOUGH (polysolv.cpp: 1e-10) from it, and returns the
+ *   vertex. There the form is the leading coefficient times a quarter of that.
+ * - Solve_Polynomial drops a leading coefficient up to SMALL_ENOUGH, and so as much of
+ *   the form. That needs 4*d*d about as small, and the form is then no more than all of
+ *   it, or |b| near 2 * sqrt(d).
+ *
+ * At other roots F is 0 up to rounding. Inside solves d*u^2 + ... = F in the same way.
+ */
+static DBL Room_Of_Straight_Segment(const SPHSWEEP_SEG& segment)
+{
+	const DBL small = 1.0e-10, least = Sqr(1.0e-4);
+	DBL d;
+
+	VDot(d, segment.Center_Coef[1], segment.Center_Coef[1]);
+	d = fabs(d - Sqr(segment.Radius_Coef[1]));
+
+	const DBL vertex = 0.25 * small * (4.0 * Sqr(d) / least + d);
+	const DBL dropped = (2.0 * Sqr(d) < small) ? min(small, 4.0 * Sqr(d) + d * least) / least : small / (2.0 * d);
+
+	return vertex + dropped + small;
+}
+
 /// The spheres of all segments. Center and radius of each are polynomials, and so are the places where it ends on each axis; a
-/// radius may be negative.
+/// radius may be negative. The root of the square of a linear function and a constant is largest at an end.
 void Bound_Shape(const SphereSweep& sweep, const AccelReach& reach, AccelBounds& bounds)
 {
 	accel_box box = Empty_Box();
@@ -188,6 +219,14 @@ void Bound_Shape(const SphereSweep& sweep, const AccelReach& reach, AccelBounds&
 	{
 		const SPHSWEEP_SEG& segment = sweep.Segment[i];
 
+		for(int end = 0; (segment.Num_Coefs == 2) && (end <= 1); end++)
+		{
+			VECTOR center;
+			const DBL radius = segment.Radius_Coef[0] + end * segment.Radius_Coef[1];
+
+			VAddScaled(center, segment.Center_Coef[0], (DBL)end, segment.Center_Coef[1]);
+			Include_Box(box, Box_Around(center, sqrt(Sqr(radius) + Room_Of_Straight_Segment(segment))));
+		}
 		for(int axis = X; axis <= Z; axis++)
 		{
 			for(int sign = -1; sign <= 1; sign += 2)
@@ -212,8 +251,14 @@ void Bound_Shape(const SphereSweep& sweep, const AccelReach& reach, AccelBounds&
 	bounds.SetBody(frame, frame.ToScene(box), Test_Flag(&sweep, INVERTED_FLAG));
 }
 
-/// The outline is made of quadratic splines, within their control points. That a point is inside is decided by counting crossings;
-/// where one is counted wrong, it is inside far to the left of a glyph, which is not allowed for.
+/*
+ * The outline is made of quadratic splines, within their control points. That a point
+ * is inside is decided by counting crossings to the right: there are none above, below
+ * and to the right of all control points. To the left there should be an even number,
+ * but one that is counted wrong leaves a point inside, however far away. Hits on the
+ * faces are decided in the same way, but no ray of a test at the heights of all control
+ * points met one there, and room for them would leave texts without a box.
+ */
 void Bound_Shape(const TrueType& text, const AccelReach& reach, AccelBounds& bounds)
 {
 	accel_box box = Empty_Box();
@@ -227,6 +272,11 @@ void Bound_Shape(const TrueType& text, const AccelReach& reach, AccelBounds& bou
 	Grow_Box(box, SOLVER_ALLOWANCE * max(max(box.hi[X] - box.lo[X], box.hi[Y] - box.lo[Y]), box.hi[Z] - box.lo[Z]));
 	Grow_Box(box, frame.rounding);
 	bounds.SetBody(frame, frame.ToScene(box), Test_Flag(&text, INVERTED_FLAG));
+	if(!Is_Empty(box))
+	{
+		box.lo[X] = -HUGE_VAL;
+		(Test_Flag(&text, INVERTED_FLAG) ? bounds.outside : bounds.inside).box = frame.ToScene(box);
+	}
 }
 
 }
