@@ -176,7 +176,7 @@ static void Test_Object(accel_probe *probe)
 		return;
 
 	query.leafTests++;
-	if(query.TestLeaf(object) == true)
+	if(query.TestLeaf(object, probe->limit) == true)
 	{
 		query.leafHits++;
 		// of equal depths the first object counts
@@ -366,7 +366,7 @@ bool Accelerator::FindInPart(const Part& part, AccelQuery& query, accel_query& c
 		if(query.MayHit(object) == false)
 			continue;
 		query.leafTests++;
-		if(query.TestLeaf(object) == true)
+		if(query.TestLeaf(object, query.best.Depth) == true)
 		{
 			query.leafHits++;
 			if(query.candidate.Depth < query.best.Depth)
@@ -539,6 +539,18 @@ static std::string Describe_Far(const accel *structure, POV_ULONG queries, DBL r
 	           queries % radius % ((info.bytes + 1023) / 1024) % info.seconds);
 }
 
+/// What rays have built in meshes.
+static std::string Describe_Meshes(const AccelMeshTotals& totals)
+{
+	std::string text = str(format("Accelerator meshes:   %d of %d built, %d triangles, %d KiB, %.3f s\n") %
+	                       totals.built % totals.meshes % totals.triangles % ((totals.bytes + 1023) / 1024) % (totals.milliseconds / 1000.0));
+
+	if(totals.loose > 0)
+		text += str(format("Accelerator loose:    %13d   (triangles of meshes that are flat as they are rounded; any ray may meet them)\n") % totals.loose);
+
+	return text;
+}
+
 void Accelerator::GetStatistics(POVMS_Object& renderStats, const RenderStatistics& stats) const
 {
 	const POV_ULONG outside = stats[Accel_Hits_Outside];
@@ -554,6 +566,8 @@ void Accelerator::GetStatistics(POVMS_Object& renderStats, const RenderStatistic
 		if(parts[i].built)
 			text += Describe_Far(parts[i].structure, parts[i].queries, parts[i - 1].reach.radius);
 	}
+	if(meshTotals.meshes > 0)
+		text += Describe_Meshes(meshTotals);
 	if(verified > 0)
 		text += str(format("Accelerator verified: %13d   Differences:     %15d\n") % verified % different);
 	if(refused > 0)

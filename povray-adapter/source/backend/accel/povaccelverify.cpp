@@ -23,6 +23,7 @@
 #include "backend/frame.h"
 
 #include "backend/accel/povaccel.h"
+#include "backend/accel/povaccelmesh.h"
 #include "backend/accel/povaccelquery.h"
 #include "backend/control/messagefactory.h"
 #include "backend/scene/scene.h"
@@ -40,7 +41,7 @@ static POV_ULONG differenceCount = 0;
 static POV_ULONG outsideCount = 0;
 static const POV_ULONG faultsPrinted = 10;
 
-static std::string Describe_Ray(const Ray& ray)
+std::string Describe_Ray(const Ray& ray)
 {
 	const VECTOR& o = ray.Origin;
 	const VECTOR& d = ray.Direction;
@@ -92,6 +93,8 @@ void Accelerator::Verify(Trace& trace, const AccelQuery& query, const Part *part
 	Intersection linear;
 	uint32_t linearIndex = ACCEL_NONE;
 	BoxCheck check(*this, query, (part != NULL) ? part->boxes : parts[0].boxes);
+
+	AccelPlainMeshes plain(query.thread);
 
 	linear.Depth = limit;
 	bool linearFound = Search_Linearly(trace, query, linear, linearIndex, (part != NULL) ? &check : NULL);
@@ -147,6 +150,8 @@ std::string Accelerator::Describe(bool found, uint32_t index, const Intersection
 void Accelerator::VerifyInteriors(const VECTOR point, TraceThreadData *thread, const vector<ObjectPtr>& found) const
 {
 	AccelPointQuery linear(objects, point, thread);
+
+	AccelPlainMeshes plain(thread);
 
 	linear.SearchLinearly();
 	thread->Stats()[Accel_Queries_Verified]++;
