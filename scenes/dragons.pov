@@ -46,6 +46,8 @@ sky_sphere {
     #declare I = I + 1;
 #end
 
+// A ball that sees them all.
+sphere { <-3.2 * Side, 2.2, -3 * Side>, 1.1 pigment { rgb 0.1 } finish { ambient 0 diffuse 0.2 reflection 0.8 } }
 box {
     <-200, 0.46, -200>, <200, 1.056, 200>
     pigment { checker rgb <0.17, 0.16, 0.16> rgb <0.10, 0.095, 0.10> scale 1.2 }

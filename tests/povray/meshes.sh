@@ -47,7 +47,8 @@ check_scene() {
     picture linear "$stock" -MB Declare=Hierarchy=0
     picture tree "$stock" -MB
     picture ours "$ours" +BM3
-    picture verify "$ours" +BM3 Accelerator_Verify=On +WT2
+    render verify.log $extent "$ours" +I"$scene" +L"$here/meshes" +MB1 +BM3 Accelerator_Verify=On +WT2 -F ||
+        complain "$name: verifying ends with exit code $?"
     pixels=$(different ours)
     [ "$pixels" = 0 ] || complain "$name: $pixels pixels differ from the linear search"
     [ "$(built ours.log 3)" -gt 0 ] || complain "$name: no mesh was built"

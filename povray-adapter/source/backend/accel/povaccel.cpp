@@ -294,6 +294,7 @@ void Accelerator::Build(const SceneData& scene, Task& task)
 
 	std::set_union(beyondBoxes.begin(), beyondBoxes.end(), parts[0].unbounded.begin(), parts[0].unbounded.end(), std::back_inserter(beyond));
 	beyondBoxes.swap(beyond);
+	BuildSeenMeshes(pilot, task);
 }
 
 static boost::mutex buildMutex;

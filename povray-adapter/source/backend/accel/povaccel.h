@@ -120,6 +120,7 @@ class Accelerator
 
 		class BoxCheck;
 
+		void BuildSeenMeshes(const vector<accel_ray>& pilot, Task& task) const;
 		void BuildPart(Part& part, const accel_hooks *hooks, accel_error& error) const;
 		const Part *ChoosePart(const VECTOR origin) const;
 		bool Find(Trace& trace, AccelQuery& query) const;

@@ -39,9 +39,11 @@
 #include "backend/accel/povaccel.h"
 #include "backend/accel/povaccelmesh.h"
 #include "backend/accel/povaccelmeshgroup.h"
+#include "backend/bounding/bbox.h"
 #include "backend/math/matrices.h"
 #include "backend/math/vector.h"
 #include "backend/scene/scene.h"
+#include "backend/support/task.h"
 
 // this must be the last file included
 #include "base/povdebug.h"
@@ -423,6 +425,71 @@ void AccelMesh::BuildPart(Part& part) const
 	accelerator.meshTotals.bytes += info.bytes;
 	accelerator.meshTotals.milliseconds += static_cast<POV_ULONG>(1000.0 * info.seconds);
 	part.built = true;
+}
+
+/// Where a ray enters the bounding box of an object, or HUGE_VAL. Not in need of being exact.
+static DBL Find_Entry(const ObjectBase *object, const accel_ray& ray)
+{
+	VECTOR low, high;
+	DBL from = 0.0, to = HUGE_VAL;
+
+	Make_min_max_from_BBox(low, high, object->BBox);
+	for(int axis = X; axis <= Z; axis++)
+	{
+		const DBL a = (low[axis] - ray.org[axis]) / ray.dir[axis], b = (high[axis] - ray.org[axis]) / ray.dir[axis];
+
+		from = max(from, min(a, b));
+		to = min(to, max(a, b));
+	}
+
+	return (from <= to) ? from : HUGE_VAL;
+}
+
+/// Asks the meshes along a ray, nearest first, until one is hit.
+static void Ask_Meshes(const vector<Mesh *>& meshes, const accel_ray& pilot, TraceThreadData *thread)
+{
+	vector<std::pair<DBL, Mesh *> > entered;
+	VECTOR direction;
+
+	for(vector<Mesh *>::const_iterator mesh = meshes.begin(); mesh != meshes.end(); mesh++)
+	{
+		const DBL entry = Find_Entry(*mesh, pilot);
+
+		if(entry < HUGE_VAL)
+			entered.push_back(std::make_pair(entry, *mesh));
+	}
+	std::sort(entered.begin(), entered.end());
+	VNormalize(direction, pilot.dir);
+
+	const Ray ray(pilot.org, direction);
+	Intersection isect;
+
+	for(size_t i = 0; i < entered.size(); i++)
+	{
+		if(Accel_Find_Nearest(isect, entered[i].second, ray, HUGE_VAL, NULL, thread) == ACCEL_FOUND)
+			return;
+	}
+}
+
+/*
+ * What camera rays will ask is built before they come, where the user sees and can stop it. Tests of other objects may not run
+ * yet, so meshes behind those are built as well.
+ */
+void Accelerator::BuildSeenMeshes(const vector<accel_ray>& pilot, Task& task) const
+{
+	SceneThreadData *thread = static_cast<SceneThreadData *>(task.GetDataPtr());
+	vector<Mesh *> meshes;
+
+	for(vector<ObjectPtr>::const_iterator object = objects.begin(); object != objects.end(); object++)
+	{
+		if((Accel_Mesh_Of(*object, thread) != NULL) && (*object)->Clip.empty() && !Test_Flag(*object, NO_IMAGE_FLAG))
+			meshes.push_back(static_cast<Mesh *>(*object));
+	}
+	for(size_t i = 0; (i < pilot.size()) && !meshes.empty() && (meshTotals.built < meshTotals.meshes); i++)
+	{
+		Ask_Meshes(meshes, pilot[i], thread);
+		task.Cooperate();
+	}
 }
 
 AccelMesh *Accel_Take_Mesh(const Mesh& mesh, SceneData& scene)

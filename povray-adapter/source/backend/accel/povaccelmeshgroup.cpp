@@ -33,6 +33,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 // frame.h must always be the first POV file included (pulls in platform config)
 #include "backend/frame.h"
@@ -234,21 +235,6 @@ static size_t Blocks_For(size_t triangles)
 	return (triangles + ACCEL_MESH_LANES - 1) / ACCEL_MESH_LANES;
 }
 
-/// Orders triangles along an axis.
-struct AccelMeshBefore
-{
-	int axis;
-
-	explicit AccelMeshBefore(int a) : axis(a) { }
-
-	bool operator()(const AccelMeshItem& a, const AccelMeshItem& b) const
-	{
-		const float p = a.Middle(axis), q = b.Middle(axis);
-
-		return (p < q) || ((p == q) && (a.index < b.index));
-	}
-};
-
 /// Is a triangle on the lower side of a cut between bins?
 struct AccelMeshBelow
 {
@@ -335,52 +321,82 @@ static AccelMeshIterator Divide_Many(AccelMeshIterator begin, AccelMeshIterator 
 	return (best.cost < HUGE_VAL) ? std::partition(begin, end, best.below) : begin + (end - begin) / 2;
 }
 
+/// As many are few.
+static const size_t FEW_TRIANGLES = 8 * ACCEL_MESH_LANES;
+
+/// A number that orders triangles as their middles along an axis do, and holds the place of one below.
+static uint64_t Sort_Key(float middle, size_t place)
+{
+	uint32_t bits;
+
+	memcpy(&bits, &middle, sizeof(bits));
+	bits ^= (bits >> 31) ? 0xffffffffu : 0x80000000u;
+
+	return (uint64_t(bits) << 32) | place;
+}
+
+/// The best cut of few triangles in order, behind full blocks.
+static float Find_Cut(const AccelMeshItem *items, const uint64_t *order, size_t count, size_t& place)
+{
+	AccelMeshExtent rising, falling;
+	float least = HUGE_VAL, above[FEW_TRIANGLES / ACCEL_MESH_LANES];
+
+	for(size_t i = count; i-- > size_t(ACCEL_MESH_LANES); )
+	{
+		falling.Include(items[uint32_t(order[i])]);
+		if(i % ACCEL_MESH_LANES == 0)
+			above[i / ACCEL_MESH_LANES] = falling.Surface() * Blocks_For(count - i);
+	}
+	place = ACCEL_MESH_LANES;
+	for(size_t i = 0; i < count; i++)
+	{
+		if((i > 0) && (i % ACCEL_MESH_LANES == 0))
+		{
+			const float cost = rising.Surface() * Blocks_For(i) + above[i / ACCEL_MESH_LANES];
+
+			if(cost < least)
+			{
+				least = cost;
+				place = i;
+			}
+		}
+		rising.Include(items[uint32_t(order[i])]);
+	}
+
+	return least;
+}
+
 /// Where few triangles are divided, so that the lower ones fill their blocks.
 static AccelMeshIterator Divide_Few(AccelMeshIterator begin, AccelMeshIterator end)
 {
 	const size_t count = end - begin;
-	size_t place = ACCEL_MESH_LANES;
-	float least = HUGE_VAL, above[8] = { 0.0f };
-	int sorted = -1, chosen = X;
+	AccelMeshItem items[FEW_TRIANGLES];
+	uint64_t order[3][FEW_TRIANGLES];
+	size_t place[3];
+	float cost[3];
+	int best = X;
 
+	std::copy(begin, end, items);
 	for(int axis = X; axis <= Z; axis++)
 	{
-		AccelMeshExtent rising, falling;
-
-		std::sort(begin, end, AccelMeshBefore(sorted = axis));
-		for(size_t i = count; i-- > size_t(ACCEL_MESH_LANES); )
-		{
-			falling.Include(begin[i]);
-			if(i % ACCEL_MESH_LANES == 0)
-				above[i / ACCEL_MESH_LANES] = falling.Surface() * Blocks_For(count - i);
-		}
 		for(size_t i = 0; i < count; i++)
-		{
-			if((i > 0) && (i % ACCEL_MESH_LANES == 0))
-			{
-				const float cost = rising.Surface() * Blocks_For(i) + above[i / ACCEL_MESH_LANES];
-
-				if(cost < least)
-				{
-					least = cost;
-					chosen = axis;
-					place = i;
-				}
-			}
-			rising.Include(begin[i]);
-		}
+			order[axis][i] = Sort_Key(items[i].Middle(axis), i);
+		std::sort(order[axis], order[axis] + count);
+		cost[axis] = Find_Cut(items, order[axis], count, place[axis]);
+		if(cost[axis] < cost[best])
+			best = axis;
 	}
-	if(chosen != sorted)
-		std::sort(begin, end, AccelMeshBefore(chosen));
+	for(size_t i = 0; i < count; i++)
+		begin[i] = items[uint32_t(order[best][i])];
 
-	return begin + place;
+	return begin + place[best];
 }
 
 static void Put_Blocks(const MESH_DATA& data, AccelMeshIterator begin, AccelMeshIterator end, vector<AccelMeshBlock>& blocks)
 {
 	while(end - begin > ACCEL_MESH_LANES)
 	{
-		const AccelMeshIterator middle = (end - begin > 8 * ACCEL_MESH_LANES) ? Divide_Many(begin, end) : Divide_Few(begin, end);
+		const AccelMeshIterator middle = (size_t(end - begin) > FEW_TRIANGLES) ? Divide_Many(begin, end) : Divide_Few(begin, end);
 
 		// the smaller part first, so that the stack stays small
 		if(middle - begin < end - middle)
