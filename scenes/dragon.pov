@@ -2,7 +2,7 @@
 // The Stanford dragon at full resolution: 871,414 triangles in one mesh2.
 //
 // What it stresses: one very large mesh. To a structure over the scene's objects it is a single
-// object: stock's own tree inside the mesh does all the work, so there is nothing to gain.
+// object: all the work is within the mesh.
 //
 // Geometry: build/scenes/dragon.inc, which scenes/fetch.sh dragon makes (+Lbuild/scenes).
 // No jitter, no crand, no area light: the pixels do not depend on the number of threads.

@@ -2,8 +2,7 @@
 // A museum: eight real scans as mesh2, far apart and of very different size.
 //
 // What it stresses: few objects, each a large mesh with a tree of its own. The diplodocus is 65
-// times as long as the rabbit. At the level of the scene there is little to accelerate, which is
-// what most renders look like to a structure over objects.
+// times as long as the rabbit. At the level of the scene there is little to accelerate.
 //
 // Geometry: build/scenes/*.inc, which scenes/fetch.sh museum makes (+Lbuild/scenes).
 // No jitter, no crand, no area light: the pixels do not depend on the number of threads.

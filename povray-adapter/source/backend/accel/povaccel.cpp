@@ -210,7 +210,7 @@ static void Test_Object(accel_probe *probe)
 		return;
 
 	query.leafTests++;
-	if(query.TestLeaf(object) == true)
+	if(query.TestLeaf(object, probe->limit) == true)
 	{
 		query.leafHits++;
 		if(query.FirstIsBefore(probe->prim))
@@ -326,6 +326,7 @@ void Accelerator::Build(const SceneData& scene, Task& task)
 		Throw_Library_Error(error);
 
 	FindBeyondBoxes();
+	BuildSeenMeshes(pilot, task);
 }
 
 /// What a search for the objects around a point has to ask beside those whose box holds it.
@@ -415,7 +416,7 @@ bool Accelerator::FindInPart(const Part& part, AccelQuery& query, accel_query& c
 		if(query.MayHit(object) == false)
 			continue;
 		query.leafTests++;
-		if(query.TestLeaf(object) == true)
+		if(query.TestLeaf(object, query.best.Depth) == true)
 		{
 			query.leafHits++;
 			if(query.candidate.Depth < query.best.Depth)
@@ -615,6 +616,18 @@ static std::string Describe_Csg(const vector<AccelCsg *>& csg, const RenderStati
 	           ((bytes + 1023) / 1024) % queries % spared);
 }
 
+/// What rays have built in meshes.
+static std::string Describe_Meshes(const AccelMeshTotals& totals)
+{
+	std::string text = str(format("Accelerator meshes:   %d of %d built, %d triangles, %d KiB, %.3f s\n") %
+	                       totals.built % totals.meshes % totals.triangles % ((totals.bytes + 1023) / 1024) % (totals.milliseconds / 1000.0));
+
+	if(totals.loose > 0)
+		text += str(format("Accelerator loose:    %13d   (triangles of meshes that are flat as they are rounded; any ray may meet them)\n") % totals.loose);
+
+	return text;
+}
+
 void Accelerator::GetStatistics(POVMS_Object& renderStats, const RenderStatistics& stats) const
 {
 	const POV_ULONG outside = stats[Accel_Hits_Outside];
@@ -631,6 +644,8 @@ void Accelerator::GetStatistics(POVMS_Object& renderStats, const RenderStatistic
 			text += Describe_Far(parts[i].structure, parts[i].queries, parts[i - 1].reach.radius);
 	}
 	text += Describe_Csg(csg, stats);
+	if(meshTotals.meshes > 0)
+		text += Describe_Meshes(meshTotals);
 	if(verified > 0)
 		text += str(format("Accelerator verified: %13d   Differences:     %15d\n") % verified % different);
 	if(refused > 0)

@@ -33,14 +33,25 @@ namespace pov
 {
 
 class AccelCsg;
+class AccelMesh;
 class MessageFactory;
+class Mesh;
 class SceneData;
 class Task;
 struct AccelQuery;
 struct AccelPointQuery;
 
+/// What the meshes of a scene came to.
+struct AccelMeshTotals
+{
+	std::atomic<POV_ULONG> meshes, built, triangles, loose, bytes, milliseconds;
+
+	AccelMeshTotals() : meshes(0), built(0), triangles(0), loose(0), bytes(0), milliseconds(0) { }
+};
+
 class Accelerator
 {
+		friend class AccelMesh;
 	public:
 		/// Takes what concerns this module from the options of a scene.
 		explicit Accelerator(POVMS_Object& options);
@@ -116,8 +127,11 @@ class Accelerator
 		/// objects with a hit outside their box that were named in a message
 		mutable std::set<uint32_t> namedOutside;
 
+		mutable AccelMeshTotals meshTotals;
+
 		class BoxCheck;
 
+		void BuildSeenMeshes(const vector<accel_ray>& pilot, Task& task) const;
 		void BuildPart(Part& part, const accel_hooks *hooks, accel_error& error) const;
 		const Part *FarPart(const VECTOR origin, Trace::CooperateFunctor& cooperate) const;
 		bool Find(Trace& trace, Trace::CooperateFunctor& cooperate, AccelQuery& query) const;
@@ -125,6 +139,9 @@ class Accelerator
 		void Verify(Trace& trace, const AccelQuery& query, const Part *part, DBL limit, bool found, uint32_t index) const;
 		void VerifyInteriors(const AccelPointQuery& query) const;
 		void FindBeyondBoxes();
+		void VerifyMesh(const Intersection& isect, Mesh& mesh, const Ray& ray, DBL closest, const RayObjectCondition *postcondition, TraceThreadData *thread, bool found) const;
+		void VerifyMesh(Mesh& mesh, const Ray& ray, const vector<Intersection>& found, TraceThreadData *thread) const;
+		void VerifyMesh(const Mesh& mesh, const VECTOR point, TraceThreadData *thread, bool inside) const;
 		void ReportOutside(const AccelQuery& query, const accel_box& box, uint32_t index, DBL depth) const;
 		void ReportDifference(TraceThreadData *thread, const std::string& query, const std::string& ours, const std::string& linear) const;
 		std::string DescribeObject(uint32_t index) const;

@@ -21,6 +21,24 @@
 namespace pov
 {
 
+/// As Find_Intersection tests any object, but for the limit.
+bool AccelQuery::TestMesh(ObjectPtr object, DBL limit)
+{
+	if(object->Intersect_BBox(variant, origin, invdir, HUGE_VAL) == false)
+		return false;
+	if((object->Bound.empty() == false) && (Ray_In_Bound(ray, object->Bound, thread) == false))
+		return false;
+
+	const AccelAnswer answer = Accel_Find_Nearest(candidate, object, ray, nextafter(limit, HUGE_VAL), postcondition, thread);
+
+	if(answer != ACCEL_NOT_ANSWERED)
+		return answer == ACCEL_FOUND;
+
+	AccelPlain plain(thread);
+
+	return TestLeaf(object);
+}
+
 bool Search_Linearly(Trace& trace, const AccelQuery& query, Intersection& best, uint32_t& index, AccelHitObserver *observer)
 {
 	bool found = false;

@@ -12,6 +12,7 @@
 #ifndef POVRAY_BACKEND_POVACCELQUERY_H
 #define POVRAY_BACKEND_POVACCELQUERY_H
 
+#include <string>
 #include <vector>
 
 #include "backend/frame.h"
@@ -19,6 +20,7 @@
 #include "backend/support/statistics.h"
 #include "backend/accel/accel.h"
 #include "backend/accel/povaccelbox.h"
+#include "backend/accel/povaccelmesh.h"
 
 namespace pov
 {
@@ -71,16 +73,24 @@ struct AccelQuery
 		prepared = true;
 	}
 
-	bool TestLeaf(ObjectPtr object)
+	/// Finds the nearest hit of an object. One beyond the limit is not needed.
+	bool TestLeaf(ObjectPtr object, DBL limit = HUGE_VAL)
 	{
 		if(prepared == false)
 			Prepare();
+		if((object->Type & HIERARCHY_OK_OBJECT) && (Accel_Mesh_Of(object, thread) != NULL))
+			return TestMesh(object, limit);
 		if(postcondition != NULL)
 			return Find_Intersection(&candidate, object, ray, variant, origin, invdir, *postcondition, thread);
 		else
 			return Find_Intersection(&candidate, object, ray, variant, origin, invdir, thread);
 	}
+	private:
+		bool TestMesh(ObjectPtr object, DBL limit);
 };
+
+/// One line for messages.
+std::string Describe_Ray(const Ray& ray);
 
 /// Sees every hit of a linear search: the nearest of each object.
 class AccelHitObserver

@@ -15,6 +15,8 @@
 // frame.h must always be the first POV file included (pulls in platform config)
 #include "backend/frame.h"
 
+#include "backend/accel/povaccelmesh.h"
+#include "backend/accel/povaccelmeshgroup.h"
 #include "backend/accel/povaccelshape.h"
 #include "backend/bounding/bbox.h"
 #include "backend/scene/objects.h"
@@ -404,40 +406,8 @@ void Bound_Shape(const Polygon& polygon, const AccelReach& reach, AccelBounds& b
 	bounds.SetPatch(frame, frame.ToScene(corners));
 }
 
-/// Copies share their data; a large mesh has a box already, each side of which was rounded to float once a level of its tree.
-static accel_box Box_Of_Triangles(const MESH_DATA& data, DBL& rounded)
-{
-	accel_box box = Empty_Box();
-
-	rounded = 0.0;
-	if((data.Tree != NULL) && (data.Number_Of_Triangles > 1000))
-	{
-		VECTOR low, high;
-
-		Make_min_max_from_BBox(low, high, data.Tree->BBox);
-		rounded = ldexp(1.0, -18);
-		return Box_Between(low, high);
-	}
-	for(long i = 0; i < data.Number_Of_Triangles; i++)
-	{
-		const long corner[3] = { data.Triangles[i].P1, data.Triangles[i].P2, data.Triangles[i].P3 };
-
-		for(int j = 0; j < 3; j++)
-		{
-			VECTOR point;
-
-			Assign_Vector(point, data.Vertices[corner[j]]);
-			Include_Point(box, point);
-		}
-	}
-
-	return box;
-}
-
 /*
- * The planes of triangles are kept in float: normal and distance are wrong by 2^-24
- * of their size, so a hit may lie 2^-20 of the largest coordinate off the plane of
- * the corners. For acute corners, 2^-16 of the extent is an allowance.
+ * Where the hits of triangles lie: povaccelmeshgroup.cpp.
  *
  * A point is inside if a ray from it along Inside_Vect meets an odd number of
  * triangles. That may go wrong at edges, and in an open mesh, however far away
@@ -445,17 +415,12 @@ static accel_box Box_Of_Triangles(const MESH_DATA& data, DBL& rounded)
  */
 void Bound_Shape(const Mesh& mesh, const AccelReach& reach, AccelBounds& bounds)
 {
-	DBL rounded, size = 0.0, extent = 0.0;
-	accel_box box = Box_Of_Triangles(*mesh.Data, rounded);
+	const AccelMesh *accelerated = mesh.Data->Accel;
+	double largest;
+	accel_box box = (accelerated != NULL) ? accelerated->Box(largest) : Bound_Mesh(*mesh.Data, largest);
 	const AccelFrame frame(mesh.Trans, reach, box);
 
-	for(int axis = X; (axis <= Z) && !Is_Empty(box); axis++)
-	{
-		size = max(size, max(fabs(box.lo[axis]), fabs(box.hi[axis])));
-		extent = max(extent, box.hi[axis] - box.lo[axis]);
-	}
-	Grow_Box(box, (rounded + ldexp(1.0, -20)) * size + ldexp(extent, -16));
-	Grow_Box(box, frame.rounding);
+	Grow_Box(box, Mesh_Growth(largest, frame.length));
 	bounds.SetPatch(frame, frame.ToScene(box));
 	if(mesh.has_inside_vector)
 	{

@@ -24,6 +24,7 @@
 
 #include "backend/accel/povaccel.h"
 #include "backend/accel/povaccelplain.h"
+#include "backend/accel/povaccelmesh.h"
 #include "backend/accel/povaccelquery.h"
 #include "backend/control/messagefactory.h"
 #include "backend/scene/scene.h"
@@ -41,7 +42,7 @@ static POV_ULONG differenceCount = 0;
 static POV_ULONG outsideCount = 0;
 static const POV_ULONG faultsPrinted = 10;
 
-static std::string Describe_Ray(const Ray& ray)
+std::string Describe_Ray(const Ray& ray)
 {
 	const VECTOR& o = ray.Origin;
 	const VECTOR& d = ray.Direction;
