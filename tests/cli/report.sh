@@ -3,6 +3,7 @@
 # accel report with the least counts: files, columns and rows, no wrong answer of ours, plots that
 # are XML, and a folder that appears whole or not at all. That a broken structure would show is the
 # test report_exam.c.
+programs=$(cd "$(dirname "$0")/../../accel/cli/report/plots" && pwd)
 # shellcheck source=tests/cli/common.sh
 . "$(dirname "$0")/common.sh"
 
@@ -95,6 +96,10 @@ plots=$(find page -name '*.svg' | sort)
 for plot in $plots page/index.html; do
     xmllint --noout "$plot" 2>xml || fail "$plot is no XML: $(head -n 1 xml)"
 done
+! grep -q '{{' page/index.html || fail "a gap of the page is left"
+# Columns by name only: a new one must not shift a plot.
+! grep -nE '\$[0-9]|col(umn)?\([0-9]|using [^(]*[0-9]+:' "$programs"/*.gnuplot ||
+    fail "a plot calls a column by its number"
 for plot in $plots; do
     grep -q "id=\"$(basename "$plot" .svg)\"" page/index.html || fail "$plot is not on the page"
     [ "$(grep -c '<use ' "$plot")" -gt 3 ] || fail "$plot is empty"

@@ -75,7 +75,7 @@ static void test_sphere(struct query *q, const struct wide_block *b, unsigned i)
 bool accel_wide_test_slowly(struct wide_fast *f, const struct wide_block *b, unsigned i)
 {
     struct query *q = prepare(f);
-    if (b->type == WIDE_SPHERES)
+    if (b->type >= WIDE_SPHERES)
         test_sphere(q, b, i);
     else if (wide_block_ids(b)[i] != f->skip)
         test_triangle(q, b, i);
