@@ -335,8 +335,9 @@ AccelAnswer AccelMesh::IsInside(const Mesh& mesh, const VECTOR point, TraceThrea
  *
  *****************************************************************************/
 
-AccelMesh::AccelMesh(const MESH_DATA& d, const Accelerator& a) : data(d), accelerator(a), groups(NULL), built(false)
+AccelMesh::AccelMesh(const MESH_DATA& d, SceneData& scene) : data(d), accelerator(*scene.accelerator), groups(NULL), built(false)
 {
+	scene.accelerator->sceneData = &scene; // the parser may ask before anything is built
 	box = Bound_Mesh(data, largest);
 	accelerator.meshTotals.meshes++;
 }
@@ -497,7 +498,7 @@ AccelMesh *Accel_Take_Mesh(const Mesh& mesh, SceneData& scene)
 	if((scene.boundingMethod != 3) || !Test_Flag(&mesh, HIERARCHY_FLAG) || (mesh.Data->Number_Of_Triangles >= (1L << AccelMeshBlock::INDEX_BITS)))
 		return NULL;
 
-	return new AccelMesh(*mesh.Data, *scene.accelerator);
+	return new AccelMesh(*mesh.Data, scene);
 }
 
 const AccelMesh *Accel_Mesh_Of(const ObjectBase *object, const TraceThreadData *thread)

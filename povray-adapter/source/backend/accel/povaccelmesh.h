@@ -37,7 +37,7 @@ enum AccelAnswer { ACCEL_NOT_ANSWERED, ACCEL_MISSED, ACCEL_FOUND };
 class AccelMesh
 {
 	public:
-		AccelMesh(const MESH_DATA& data, const Accelerator& accelerator);
+		AccelMesh(const MESH_DATA& data, SceneData& scene);
 		~AccelMesh();
 
 		/// Finds the hit of least depth below `closest`, as Find_Intersection does. The condition may be NULL.
