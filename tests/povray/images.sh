@@ -1,8 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 #
-# Renders scenes with stock POV-Ray's linear search (-MB) and with povray-accel, once with each kind
-# of structure, and compares the pixels byte for byte. Stock's own +BM1 and +BM2 stand beside: where
+# Renders scenes with stock POV-Ray's linear search (-MB, and `hierarchy off` in our own meshes) and
+# with povray-accel, once with each kind of structure, and compares the pixels byte for byte. Stock's own +BM1 and +BM2 stand beside: where
 # they deviate from -MB, stock's methods disagree with each other. Then renders each scene again
 # with Accelerator_Verify=On, where every query is compared with a linear search, object and depth.
 #
@@ -60,13 +60,25 @@ parse_arguments() {
     fi
 }
 
+# The meshes of the scene in build/scenes/, each searched linearly as well: in reference/
+search_meshes_linearly() {
+    local mesh
+    mkdir -p reference
+    for mesh in $(sed -n 's/^ *#include "\(.*\)"$/\1/p' "$scene"); do
+        [ -e "$build/scenes/$mesh" ] || continue
+        # a mesh ends with two lines of one brace
+        awk '$0 == "}" && last == "}" { print "hierarchy off" } { print; last = $0 }' \
+            "$build/scenes/$mesh" >"reference/$mesh"
+    done
+}
+
 # try WHAT BINARY ARGUMENT...: renders the scene of this job to WHAT.ppm, or fails the job
 try() {
     local what=$1
     shift
     # +MB1: the two objects of crater are too few for the usual threshold
     render "$what.log" "$size" "$1" +I"$scene" +L"$(dirname "$scene")" \
-        +L"$build/scenes" "${declares[@]}" +MB1 "${@:2}" +O"$what.ppm" && return
+        +MB1 "${@:2}" +L"$build/scenes" "${declares[@]}" +O"$what.ppm" && return
     grep -a 'rror' "$what.log" | head -n 3 || tail -n 3 "$what.log"
     echo "FAILED $what: see $PWD/$what.log"
     exit 1
@@ -81,7 +93,9 @@ compare() {
 run_scene() {
     local scene=$1 name=$2 kind file count row
     : >wrong
-    try linear-search "$stock" -MB
+    search_meshes_linearly
+    try linear-search "$stock" +Lreference -MB
+    rm -r reference
     try BM1 "$stock" +BM1
     try BM2 "$stock" +BM2
     row=$(printf '%-19s %7s %6d %6d' "$name" "$size" "$(compare BM1)" "$(compare BM2)")
@@ -159,7 +173,7 @@ start_job() {
     declares=("${declares[@]/#/Declare=}")
     mkdir -p "$out/$name"
     cd "$out/$name"
-    rm -f ./*
+    rm -rf ./*
     run_scene "$scene" "$name" >failure 2>&1 || echo "$name: $(tail -n 1 failure)" >>wrong
     if [ -t 1 ]; then printf '\r\033[K  %s is done' "$name"; fi
 }
