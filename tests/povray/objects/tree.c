@@ -3,6 +3,8 @@
 
 #include "shapes.h"
 
+#include <string.h>
+
 int written_shapes[64];
 
 enum { UNION, MERGE, INTERSECTION, DIFFERENCE, OPERATIONS, PARTS = 4 };
@@ -219,6 +221,9 @@ static struct reach write_shape(struct writer *w, int which)
     }
     if ((shape->traits & SHAPE_HIERARCHY) && rng_chance(&w->rng, 0.2)) {
         write_text(w, " hierarchy off");
+    }
+    if (strncmp(shape->name, "mesh", 4) == 0) { /* POV-Ray's tree in them may lose hits */
+        write_text(w, " #ifdef (Trees_Off) hierarchy off #end");
     }
     w->budget--;
     w->loose += (shape->traits & SHAPE_LOOSE) != 0;
