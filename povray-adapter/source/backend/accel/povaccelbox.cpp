@@ -397,16 +397,6 @@ static accel_box Origins_Of_Camera(const Camera& camera)
 	return Box_Around(camera.Location, (wide ? right + up : 0.0) + fabs(camera.Aperture));
 }
 
-/// The middle of a box, if it has one.
-static void Middle_Of(const accel_box& box, VECTOR middle)
-{
-	for(int axis = X; axis <= Z; axis++)
-	{
-		if(Is_Finite(box) && !Is_Empty(box))
-			middle[axis] = 0.5 * (box.lo[axis] + box.hi[axis]);
-	}
-}
-
 /// How far from a point the finite boxes, the camera, and with photons the lights, reach along an axis.
 static DBL Farthest_Place(const SceneData& scene, const vector<accel_box>& boxes, const VECTOR center)
 {
@@ -514,8 +504,6 @@ void Find_Reaches(const SceneData& scene, const vector<ObjectPtr>& objects, Acce
 
 	Assign_Vector(point.center, scene.parsedCamera.Location);
 	point.radius = 0.0;
-	if(scene.parsedCamera.Type == MESH_CAMERA) // its Location is no place
-		Middle_Of(Origins_Of_Camera(scene.parsedCamera), point.center);
 	point.grazings = &grazings;
 	point.wanting = true;
 	near = Find_Boxes(objects, point);

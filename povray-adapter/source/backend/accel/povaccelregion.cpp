@@ -478,18 +478,13 @@ static int Open_Axis(const AccelQuadric& quadric)
  * or taken from it, plus (l + e) / n times that of the half-space, in which y has the
  * factor n > 0, has no linear term but e*y. With e = 2 * FARTHEST * |s| both together are not negative for y > 0, no more than
  * 2*e*|y| below 0 for y < 0, and there |y| is at most what the other terms leave, over
- * l - e. So what remains is an elliptic cylinder, from which a box follows.
+ * l - e, `behind`. So what remains is an elliptic cylinder, from which a box follows.
+ * False if the half-space does not cut it off.
  */
-static void Cut_Paraboloid(const AccelQuadric& quadric, const AccelHalfSpace& half, vector<AccelQuadric>& cylinders, vector<AccelHalfSpace>& derived)
+static bool Cut_Paraboloid(const AccelQuadric& quadric, int open, const AccelHalfSpace& half, AccelQuadric& cylinder, AccelHalfSpace& apex)
 {
-	const int open = Open_Axis(quadric);
-
-	if(open < 0)
-		return;
-
 	const DBL linear = fabs(quadric.linear[open]), rest = 2.0 * FARTHEST * ldexp(Largest_Square(quadric), -43);
 	const DBL forward = (quadric.linear[open] < 0.0) ? 1.0 : -1.0;
-	AccelQuadric cylinder(quadric);
 	DBL left = -quadric.constant, along[3];
 
 	for(int k = 0; k < 3; k++)
@@ -499,24 +494,47 @@ static void Cut_Paraboloid(const AccelQuadric& quadric, const AccelHalfSpace& ha
 			left += 0.25 * Sqr(quadric.linear[k]) / quadric.square[k];
 	}
 	if(!(forward * along[open] > 1.0e-3) || !(linear > 2.0 * rest))
-		return;
+		return false;
 
 	const DBL factor = (linear + rest) / (forward * along[open]);
 	const DBL behind = max(left, 0.0) / (linear - rest);
 
+	cylinder = quadric;
 	for(int k = 0; k < 3; k++)
 		cylinder.linear[k] += factor * along[k];
 	cylinder.square[open] = cylinder.linear[open] = 0.0;
 	cylinder.constant -= factor * half.distance + 2.0 * rest * behind + ldexp(linear + factor, -50) * 2.0 * FARTHEST;
 	cylinder.exact = false;
 	cylinder.allowed = open;
-	cylinders.push_back(cylinder);
-
-	AccelHalfSpace apex;
-
 	VScale(apex.normal, quadric.axis[open], -forward);
 	apex.distance = behind * (1.0 + ldexp(1.0, -40));
-	derived.push_back(apex);
+
+	return true;
+}
+
+/// Adds to `derived` what follows if a half-space cuts off a paraboloid.
+static void Derive_From_Cuts(const AccelQuadric& quadric, const accel_box& box, const vector<AccelHalfSpace>& halves, vector<AccelHalfSpace>& derived)
+{
+	const int open = Open_Axis(quadric);
+
+	if(open < 0)
+		return;
+
+	const vector<AccelHalfSpace> sides = Sides_And(box, halves);
+	bool cut = false;
+
+	for(size_t i = 0; i < sides.size(); i++)
+	{
+		AccelQuadric cylinder;
+		AccelHalfSpace apex;
+
+		if(Cut_Paraboloid(quadric, open, sides[i], cylinder, apex) == false)
+			continue;
+		if(cut == false)
+			derived.push_back(apex);
+		cut = true;
+		Derive_From_Quadric(cylinder, box, halves, derived);
+	}
 }
 
 
@@ -576,16 +594,11 @@ accel_box AccelRegion::Box() const
 	{
 		vector<AccelHalfSpace> all(halves);
 
-		const vector<AccelHalfSpace> sides = Sides_And(result, halves);
-		vector<AccelQuadric> known(quadrics);
-
-		for(size_t i = 0; i < quadrics.size(); i++)
-		{
-			for(size_t j = 0; j < sides.size(); j++)
-				Cut_Paraboloid(quadrics[i], sides[j], known, all);
-		}
-		for(size_t i = 0; i < known.size(); i++)
-			Derive_From_Quadric(known[i], result, all, all);
+		// of many half-spaces the first ones are combined, so those of cylinders come last
+		for(vector<AccelQuadric>::const_iterator quadric = quadrics.begin(); quadric != quadrics.end(); quadric++)
+			Derive_From_Quadric(*quadric, result, all, all);
+		for(vector<AccelQuadric>::const_iterator quadric = quadrics.begin(); quadric != quadrics.end(); quadric++)
+			Derive_From_Cuts(*quadric, result, halves, all);
 		if(Is_Finite(result) == false)
 			Cut_With_Combinations(result, all);
 		for(int pass = 0; pass < 3; pass++)
