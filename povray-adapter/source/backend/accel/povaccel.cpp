@@ -61,6 +61,7 @@ Accelerator::Accelerator(POVMS_Object& options) :
 	chosen(options.TryGetInt(kPOVAttrib_BoundingMethod, 1) == 3),
 	mentioned(options.Exist(kPOVAttrib_Accelerator) || options.Exist(kPOVAttrib_AcceleratorVerify)),
 	verify(options.TryGetBool(kPOVAttrib_AcceleratorVerify, false)),
+	few(false),
 	lightsLeftOut(0),
 	interiorsExist(false),
 	sceneData(NULL)
@@ -258,10 +259,9 @@ static vector<accel_ray> Camera_Pilot(const Camera& camera)
 	return pilot;
 }
 
-/// The structure over all objects, for rays that begin within reach of the part.
-void Accelerator::BuildPart(Part& part, const accel_hooks *hooks, accel_error& error) const
+/// The structure over all objects, given their boxes for rays within reach of the part, which are spoiled.
+void Accelerator::BuildPart(Part& part, vector<accel_box>& boxes, const accel_hooks *hooks, accel_error& error) const
 {
-	vector<accel_box> boxes = Find_Boxes(objects, part.reach);
 	double tests = 0.0;
 
 	if(verify)
@@ -303,12 +303,13 @@ void Accelerator::TakeObjects(const SceneData& scene)
 			objects.push_back(*i);
 	}
 	lightsLeftOut = scene.objects.size() - objects.size();
+	few = (objects.size() <= 8) && ((config == "") || (config == "auto")) && (verify == false);
 	sceneData = &scene;
 
-	Find_Reaches(scene, objects, reach);
+	Find_Reaches(scene, objects, grazings, reach, nearBoxes);
 	for(int i = 0; i < ACCEL_REACHES; i++)
 		parts[i].reach = reach[i];
-	Accel_Take_Csg(objects, reach[ACCEL_REACHES - 1], csg);
+	Accel_Take_Csg(objects, reach[ACCEL_REACHES - 2], csg);
 }
 
 void Accelerator::Build(const SceneData& scene, Task& task)
@@ -320,12 +321,13 @@ void Accelerator::Build(const SceneData& scene, Task& task)
 	hooks.pilot_count = pilot.size();
 	accel_error error;
 
-	BuildPart(parts[0], &hooks, error);
+	BuildPart(parts[0], nearBoxes, &hooks, error);
 	progress.RethrowIfStopped();
 	if(parts[0].built == false)
 		Throw_Library_Error(error);
 
 	FindBeyondBoxes();
+	vector<accel_box>().swap(nearBoxes);
 	BuildSeenMeshes(pilot, task);
 }
 
@@ -338,7 +340,7 @@ void Accelerator::FindBeyondBoxes()
 		interiorsExist = interiorsExist || ((*i)->interior != NULL);
 	for(int search = 0; interiorsExist && (search <= ACCEL_OF_PHOTONS); search++)
 	{
-		const vector<uint32_t> beyond = Objects_Beyond_Boxes(objects, parts[0].reach, AccelContainerSearch(search));
+		const vector<uint32_t> beyond = Objects_Beyond_Boxes(objects, nearBoxes, parts[0].reach, AccelContainerSearch(search));
 
 		std::set_union(beyond.begin(), beyond.end(), unbounded.begin(), unbounded.end(), std::back_inserter(beyondBoxes[search]));
 	}
@@ -346,33 +348,40 @@ void Accelerator::FindBeyondBoxes()
 
 static boost::mutex buildMutex;
 
-/// The part whose boxes hold the hits of a ray from outside the reach of the first, which is built if need be; NULL if there is none.
-const Accelerator::Part *Accelerator::FarPart(const VECTOR origin, Trace::CooperateFunctor& cooperate) const
+/// A part that a ray needs, built if need be.
+const Accelerator::Part *Accelerator::BuiltPart(Part& part, Trace::CooperateFunctor& cooperate) const
 {
-	for(int i = 1; i < ACCEL_REACHES; i++)
+	if(part.built == false)
 	{
-		Part& part = parts[i];
+		boost::mutex::scoped_lock lock(buildMutex);
+		AccelRenderHook hook(cooperate);
+		const accel_hooks hooks = hook.Hooks();
+		accel_error error;
 
-		if(part.reach.Holds(origin))
+		if(part.built == false)
 		{
-			if(part.built == false)
-			{
-				boost::mutex::scoped_lock lock(buildMutex);
-				AccelRenderHook hook(cooperate);
-				const accel_hooks hooks = hook.Hooks();
-				accel_error error;
+			vector<accel_box> boxes = Find_Boxes(objects, part.reach);
 
-				if(part.built == false)
-				{
-					BuildPart(part, &hooks, error);
-					hook.RethrowIfStopped();
-					if(part.built == false)
-						Throw_Library_Error(error);
-				}
-			}
-			part.queries.fetch_add(1, std::memory_order_relaxed);
-			return &part;
+			BuildPart(part, boxes, &hooks, error);
+			hook.RethrowIfStopped();
+			if(part.built == false)
+				Throw_Library_Error(error);
 		}
+	}
+	part.queries.fetch_add(1, std::memory_order_relaxed);
+
+	return &part;
+}
+
+/// The part whose boxes hold the hits of a ray that does not belong to the first; NULL if there is none.
+const Accelerator::Part *Accelerator::FarPart(const Ray& ray, Trace::CooperateFunctor& cooperate) const
+{
+	const bool grazing = grazings.Holds(ray.Direction);
+
+	for(int i = grazing ? ACCEL_REACHES - 1 : 1; i < ACCEL_REACHES; i++)
+	{
+		if(parts[i].reach.Holds(ray.Origin))
+			return BuiltPart(parts[i], cooperate);
 	}
 
 	return NULL;
@@ -447,15 +456,45 @@ bool Accelerator::FindInPart(const Part& part, AccelQuery& query, accel_query& c
 	return index != ACCEL_NONE;
 }
 
+/// As a linear search. Leaf tests ask boxes of their own.
+bool Accelerator::FindAmongFew(AccelQuery& query, uint32_t& index) const
+{
+	for(size_t i = 0; i < objects.size(); i++)
+	{
+		if(query.MayHit(objects[i]) == false)
+			continue;
+		query.leafTests++;
+		if(query.TestLeaf(objects[i]) == true)
+		{
+			query.leafHits++;
+			if(query.candidate.Depth < query.best.Depth)
+			{
+				query.best = query.candidate;
+				index = i;
+			}
+		}
+	}
+
+	return index != ACCEL_NONE;
+}
+
 bool Accelerator::Find(Trace& trace, Trace::CooperateFunctor& cooperate, AccelQuery& query) const
 {
 	const DBL limit = query.best.Depth;
-	const Part *part = parts[0].reach.Holds(query.ray.Origin) ? &parts[0] : FarPart(query.ray.Origin, cooperate);
+	const Part *part = NULL;
 	accel_query counters = { &query, 0, 0, 0, 0 };
 	uint32_t index = ACCEL_NONE;
 	bool found = false;
 
-	if(part != NULL)
+	if(few == false)
+	{
+		const bool usual = parts[0].reach.Holds(query.ray.Origin) && !grazings.Holds(query.ray.Direction);
+
+		part = usual ? &parts[0] : FarPart(query.ray, cooperate);
+	}
+	if(few)
+		found = FindAmongFew(query, index);
+	else if(part != NULL)
 		found = FindInPart(*part, query, counters, index);
 	else
 		counters.refused = 1;
@@ -500,16 +539,23 @@ void Accelerator::FindContainingInteriors(const VECTOR point, AccelContainerSear
 	accel_query counters = { NULL, 0, 0, 0, 0 };
 	RenderStatistics& stats = thread->Stats();
 	const vector<uint32_t>& beyond = beyondBoxes[search];
-	vector<uint32_t> named, candidates;
+	vector<uint32_t> named;
 
-	accel_point(parts[0].structure, point, Note_Object, &named, &counters);
-	std::set_union(named.begin(), named.end(), beyond.begin(), beyond.end(), std::back_inserter(candidates));
-	if((counters.refused > 0) || !parts[0].reach.Holds(point))
+	if(few == false)
+		accel_point(parts[0].structure, point, Note_Object, &named, &counters);
+	if(few || (counters.refused > 0) || !parts[0].reach.Holds(point))
 		query.SearchLinearly();
 	else
 	{
-		for(vector<uint32_t>::const_iterator i = candidates.begin(); i != candidates.end(); i++)
-			query.Test(objects[*i]);
+		// both lists rise
+		for(size_t i = 0, j = 0; (i < named.size()) || (j < beyond.size()); )
+		{
+			const uint32_t a = (i < named.size()) ? named[i] : ACCEL_NONE, b = (j < beyond.size()) ? beyond[j] : ACCEL_NONE;
+
+			i += (a <= b);
+			j += (b <= a);
+			query.Test(objects[min(a, b)]);
+		}
 	}
 
 	stats[Accel_Queries]++;
@@ -561,7 +607,11 @@ void Accelerator::GetStatistics(POVMS_Object& parserStats) const
 		accel_info info;
 
 		accel_describe(parts[0].structure, &info);
-		parserStats.SetString(kPOVAttrib_AcceleratorText, Describe_Structure(info, parts[0].unbounded.size(), lightsLeftOut).c_str());
+		std::string text = Describe_Structure(info, parts[0].unbounded.size(), lightsLeftOut);
+
+		if(few)
+			text += "  Note: with so few objects rays test each, and the structure is not asked\n";
+		parserStats.SetString(kPOVAttrib_AcceleratorText, text.c_str());
 	}
 	else if(chosen)
 		parserStats.SetString(kPOVAttrib_AcceleratorText, "Accelerator:      none, linear search (bounding is off, or there are few objects)\n");
@@ -583,15 +633,15 @@ static std::string Describe_Built(const accel *structure)
 	           ((info.lazy_bytes + 1023) / 1024));
 }
 
-/// What was built for rays that begin far from the camera.
-static std::string Describe_Far(const accel *structure, POV_ULONG queries, DBL radius)
+/// What was built for rays that begin far from the camera, or along grazing directions.
+static std::string Describe_Part(const accel *structure, POV_ULONG queries, const std::string& name, const std::string& which)
 {
 	accel_info info;
 
 	accel_describe(structure, &info);
 
-	return str(format("Accelerator far:      %13d   (rays from over %.2g away, for which %d KiB were built in %.3f s)\n") %
-	           queries % radius % ((info.bytes + 1023) / 1024) % info.seconds);
+	return str(format("Accelerator %-10s%13d   (rays %s, for which %d KiB were built in %.3f s)\n") %
+	           (name + ":") % queries % which % ((info.bytes + 1023) / 1024) % info.seconds);
 }
 
 /// What was built inside CSG objects, and what it spared.
@@ -640,8 +690,11 @@ void Accelerator::GetStatistics(POVMS_Object& renderStats, const RenderStatistic
 		text += Describe_Built(parts[0].structure);
 	for(int i = 1; i < ACCEL_REACHES; i++)
 	{
+		const bool grazing = (i == ACCEL_REACHES - 1);
+
 		if(parts[i].built)
-			text += Describe_Far(parts[i].structure, parts[i].queries, parts[i - 1].reach.radius);
+			text += Describe_Part(parts[i].structure, parts[i].queries, grazing ? "grazing" : "far",
+			                      grazing ? "along which leaf tests are not exact" : str(format("from over %.2g away") % parts[i - 1].reach.radius));
 	}
 	text += Describe_Csg(csg, stats);
 	if(meshTotals.meshes > 0)

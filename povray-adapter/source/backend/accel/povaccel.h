@@ -95,6 +95,8 @@ class Accelerator
 		bool verify;
 		/// the configuration, in the library's words
 		std::string config;
+		/// are there so few objects that testing each takes less time than any structure?
+		bool few;
 		/// the objects that a ray can hit, in the order of the scene
 		vector<ObjectPtr> objects;
 		/// number of light sources left out, as no ray can hit them
@@ -121,7 +123,11 @@ class Accelerator
 			Part() : structure(NULL), built(false), queries(0) { }
 		};
 
-		/// for most rays, and for rays from farther and farther away, each built when the first one comes
+		/// boxes for the first part, until it is built
+		vector<accel_box> nearBoxes;
+		/// rays along directions for which leaf tests may be wrong by much
+		AccelGrazings grazings;
+		/// for most rays, for rays from farther and farther away, and for grazing ones, each built when the first one comes
 		mutable Part parts[ACCEL_REACHES];
 
 		/// objects with a hit outside their box that were named in a message
@@ -132,10 +138,12 @@ class Accelerator
 		class BoxCheck;
 
 		void BuildSeenMeshes(const vector<accel_ray>& pilot, Task& task) const;
-		void BuildPart(Part& part, const accel_hooks *hooks, accel_error& error) const;
-		const Part *FarPart(const VECTOR origin, Trace::CooperateFunctor& cooperate) const;
+		void BuildPart(Part& part, vector<accel_box>& boxes, const accel_hooks *hooks, accel_error& error) const;
+		const Part *FarPart(const Ray& ray, Trace::CooperateFunctor& cooperate) const;
+		const Part *BuiltPart(Part& part, Trace::CooperateFunctor& cooperate) const;
 		bool Find(Trace& trace, Trace::CooperateFunctor& cooperate, AccelQuery& query) const;
 		bool FindInPart(const Part& part, AccelQuery& query, accel_query& counters, uint32_t& index) const;
+		bool FindAmongFew(AccelQuery& query, uint32_t& index) const;
 		void Verify(Trace& trace, const AccelQuery& query, const Part *part, DBL limit, bool found, uint32_t index) const;
 		void VerifyInteriors(const AccelPointQuery& query) const;
 		void FindBeyondBoxes();

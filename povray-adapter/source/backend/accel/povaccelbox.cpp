@@ -321,9 +321,9 @@ static accel_box Box_Of_Stock(const ObjectBase *object)
 	return box;
 }
 
-vector<uint32_t> Objects_Beyond_Boxes(const vector<ObjectPtr>& objects, const AccelReach& reach, AccelContainerSearch search)
+vector<uint32_t> Objects_Beyond_Boxes(const vector<ObjectPtr>& objects, const vector<accel_box>& boxes, const AccelReach& reach,
+                                      AccelContainerSearch search)
 {
-	const vector<accel_box> boxes = Find_Boxes(objects, reach);
 	vector<uint32_t> beyond;
 
 	for(size_t i = 0; i < objects.size(); i++)
@@ -397,16 +397,6 @@ static accel_box Origins_Of_Camera(const Camera& camera)
 	return Box_Around(camera.Location, (wide ? right + up : 0.0) + fabs(camera.Aperture));
 }
 
-/// The middle of a box, if it has one.
-static void Middle_Of(const accel_box& box, VECTOR middle)
-{
-	for(int axis = X; axis <= Z; axis++)
-	{
-		if(Is_Finite(box) && !Is_Empty(box))
-			middle[axis] = 0.5 * (box.lo[axis] + box.hi[axis]);
-	}
-}
-
 /// How far from a point the finite boxes, the camera, and with photons the lights, reach along an axis.
 static DBL Farthest_Place(const SceneData& scene, const vector<accel_box>& boxes, const VECTOR center)
 {
@@ -449,23 +439,24 @@ static DBL Surface(const vector<accel_box>& boxes)
 	return sum;
 }
 
-/// The largest of some cubes, in radii, for which no more objects are without a box, and boxes hardly larger, than for the camera alone.
-static DBL Radius_Of_Near(const vector<ObjectPtr>& objects, const AccelReach& point, const vector<accel_box>& boxes, DBL radius, DBL farthest)
+/// Finds the largest of some cubes, in radii, for which no more objects are without a box, and boxes hardly larger, than for the
+/// camera alone; turns `boxes` from those for the camera into those for the cube.
+static DBL Radius_Of_Near(const vector<ObjectPtr>& objects, const AccelReach& point, vector<accel_box>& boxes, DBL radius, DBL farthest)
 {
-	static const int exponents[] = { 20, 17 };
+	static const int exponents[] = { 20, 17, 14 };
+	const size_t bounded = Radii(boxes).size();
+	const DBL surface = Surface(boxes);
 	AccelReach reach = point;
 
-	for(int i = 0; i < 2; i++)
+	for(int i = 0; i < 3; i++)
 	{
 		reach.radius = min(farthest, ldexp(radius, exponents[i]));
-
-		const vector<accel_box> larger = Find_Boxes(objects, reach);
-
-		if((Radii(larger).size() == Radii(boxes).size()) && (Surface(larger) <= 1.01 * Surface(boxes)))
-			return reach.radius;
+		boxes = Find_Boxes(objects, reach);
+		if((Radii(boxes).size() == bounded) && (Surface(boxes) <= 1.01 * surface))
+			break;
 	}
 
-	return min(farthest, ldexp(radius, 14));
+	return reach.radius;
 }
 
 /// What 19 of 20 boxes reach at least from their middle; 1 if there are none.
@@ -489,9 +480,10 @@ AccelReach Find_Near_Reach(const vector<ObjectPtr>& objects, const AccelReach& w
 
 	reach.radius = 0.0;
 
-	const vector<accel_box> boxes = Find_Boxes(objects, reach);
+	vector<accel_box> boxes = Find_Boxes(objects, reach);
+	const DBL radius = Small_Radius(boxes);
 
-	reach.radius = Radius_Of_Near(objects, reach, boxes, Small_Radius(boxes), whole.radius);
+	reach.radius = Radius_Of_Near(objects, reach, boxes, radius, whole.radius);
 
 	return reach;
 }
@@ -501,25 +493,28 @@ AccelReach Find_Near_Reach(const vector<ObjectPtr>& objects, const AccelReach& w
  * with the distance of that place, in units of the size of the shape. So most of the
  * objects, 19 of 20, set the near cubes: at 2^14 radii a sor is wrong by a sixth of
  * its size, at 2^20 a sphere by a ten-thousandth. A structure for rays from farther
- * away is built while they wait, so the near cube is as large as boxes allow. The last
- * cube holds all bounded objects, and where there are others, what MAX_DISTANCE lets
+ * away is built while they wait, so the near cube is as large as boxes allow. The largest
+ * cubes hold all bounded objects, and where there are others, what MAX_DISTANCE lets
  * rays reach. From farther away no structure is asked.
  */
-void Find_Reaches(const SceneData& scene, const vector<ObjectPtr>& objects, AccelReach reach[ACCEL_REACHES])
+void Find_Reaches(const SceneData& scene, const vector<ObjectPtr>& objects, AccelGrazings& grazings, AccelReach reach[ACCEL_REACHES],
+                  vector<accel_box>& near)
 {
 	AccelReach point;
 
 	Assign_Vector(point.center, scene.parsedCamera.Location);
 	point.radius = 0.0;
+	point.grazings = &grazings;
+	point.wanting = true;
+	near = Find_Boxes(objects, point);
+	point.wanting = false;
+	if(grazings.Keep() == false)
+		near = Find_Boxes(objects, point);
 
-	if(scene.parsedCamera.Type == MESH_CAMERA) // its Location is no place
-		Middle_Of(Origins_Of_Camera(scene.parsedCamera), point.center);
+	const DBL radius = Small_Radius(near);
+	DBL farthest = 2.0 * Farthest_Place(scene, near, point.center);
 
-	const vector<accel_box> boxes = Find_Boxes(objects, point);
-	const DBL radius = Small_Radius(boxes);
-	DBL farthest = 2.0 * Farthest_Place(scene, boxes, point.center);
-
-	if(Radii(boxes).size() < boxes.size())
+	if(Radii(near).size() < near.size())
 		farthest = max(farthest, 2.0 * MAX_DISTANCE);
 	farthest = min(farthest, ldexp(1.0, 27));
 	for(int i = 0; i < ACCEL_REACHES; i++)
@@ -527,8 +522,9 @@ void Find_Reaches(const SceneData& scene, const vector<ObjectPtr>& objects, Acce
 		reach[i] = point;
 		reach[i].radius = farthest;
 	}
-	reach[0].radius = Radius_Of_Near(objects, point, boxes, radius, farthest);
+	reach[0].radius = Radius_Of_Near(objects, point, near, radius, farthest);
 	reach[1].radius = min(farthest, ldexp(radius, 20));
+	reach[ACCEL_REACHES - 1].grazings = NULL;
 }
 
 }

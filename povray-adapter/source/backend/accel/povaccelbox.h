@@ -30,8 +30,9 @@ enum AccelContainerSearch
 };
 
 /// Where rays begin that boxes are made for, each within the next. Most begin in the first, near the camera, where rounding is
-/// small.
-void Find_Reaches(const SceneData& scene, const vector<ObjectPtr>& objects, AccelReach reach[ACCEL_REACHES]);
+/// small: `near` are the boxes for these. The last is for rays that are along one of `grazings`, which belong to no other.
+void Find_Reaches(const SceneData& scene, const vector<ObjectPtr>& objects, AccelGrazings& grazings, AccelReach reach[ACCEL_REACHES],
+                  vector<accel_box>& near);
 
 /// The largest cube around the same centre as `whole`, and no larger, for which boxes are hardly larger than for rays from the
 /// centre.
@@ -49,7 +50,8 @@ void Find_Part_Boxes(const vector<ObjectPtr>& parts, bool common, const AccelRea
 bool Is_Dark_Light(const ObjectBase *object);
 
 /// The objects with an interior that a point outside their box for this reach may be in, as far as a container search tells.
-vector<uint32_t> Objects_Beyond_Boxes(const vector<ObjectPtr>& objects, const AccelReach& reach, AccelContainerSearch search);
+vector<uint32_t> Objects_Beyond_Boxes(const vector<ObjectPtr>& objects, const vector<accel_box>& boxes, const AccelReach& reach,
+                                      AccelContainerSearch search);
 
 }
 

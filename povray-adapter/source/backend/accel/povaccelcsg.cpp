@@ -152,7 +152,7 @@ bool AccelCsg::Answers(const VECTOR where, const TraceThreadData *thread) const
 /// The parts that a ray may hit. Only subsurface rays count hits that are nearer than MIN_ISECT_DEPTH.
 void AccelCsg::FindNear(const Ray& ray, AccelPlaces& near, TraceThreadData *thread) const
 {
-	const Level *level = Choose(ray.Origin);
+	const Level *level = levels[FAR].reach.LeavesOut(ray.Direction) ? NULL : Choose(ray.Origin);
 	accel_query query = { &near, 0, 0, 0, 0 };
 
 	if((level != NULL) && (level->structure != NULL))

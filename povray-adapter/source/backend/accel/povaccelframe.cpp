@@ -76,13 +76,14 @@ AccelFrame::AccelFrame(const TRANSFORM *trans, const AccelReach& reach, const ac
 
 void AccelFrame::FindSizes(const AccelReach& reach, const accel_box& shape, const accel_box& image)
 {
-	VECTOR coordinate, way;
+	VECTOR coordinate, ways;
 
 	for(int k = X; k <= Z; k++)
 	{
 		coordinate[k] = fabs(reach.center[k]) + max(reach.radius, 0.0) + Largest_Coordinate(image, k);
-		way[k] = min(coordinate[k], max(reach.radius, 0.0) + max(fabs(image.lo[k] - reach.center[k]), fabs(image.hi[k] - reach.center[k])));
+		ways[k] = min(coordinate[k], max(reach.radius, 0.0) + max(fabs(image.lo[k] - reach.center[k]), fabs(image.hi[k] - reach.center[k])));
 	}
+	way = sqrt(Sqr(ways[X]) + Sqr(ways[Y]) + Sqr(ways[Z]));
 	distance = length = 0.0;
 	for(int axis = X; axis <= Z; axis++)
 	{
@@ -91,7 +92,7 @@ void AccelFrame::FindSizes(const AccelReach& reach, const accel_box& shape, cons
 		for(int k = X; k <= Z; k++)
 		{
 			sum += fabs(inverse[k][axis]) * coordinate[k];
-			difference += fabs(inverse[k][axis]) * way[k];
+			difference += fabs(inverse[k][axis]) * ways[k];
 		}
 		rounding[axis] = ldexp(sum, -49);
 		distance += Sqr(difference);
@@ -225,7 +226,8 @@ accel_box AccelFrame::CylinderToScene(int along, DBL lo, DBL hi, DBL radius) con
 	return image;
 }
 
-DBL AccelFrame::Stretch() const
+/// Frobenius norm.
+static DBL Size_Of(const MATRIX matrix)
 {
 	DBL sum = 0.0;
 
@@ -236,6 +238,37 @@ DBL AccelFrame::Stretch() const
 	}
 
 	return sqrt(sum);
+}
+
+DBL AccelFrame::Stretch() const
+{
+	return Size_Of(matrix);
+}
+
+DBL AccelFrame::Shrinkage() const
+{
+	return Size_Of(inverse);
+}
+
+void AccelFrame::Along(int axis, VECTOR normal) const
+{
+	for(int k = X; k <= Z; k++)
+		normal[k] = inverse[k][axis];
+}
+
+void AccelFrame::SquaresInScene(const VECTOR factor, VECTOR square, VECTOR mixed) const
+{
+	for(int k = X; k <= Z; k++)
+	{
+		const int other = (k == X) ? Y : Z, one = (k == Z) ? Y : X; // XY, XZ, YZ
+
+		square[k] = mixed[k] = 0.0;
+		for(int axis = X; axis <= Z; axis++)
+		{
+			square[k] += factor[axis] * Sqr(inverse[k][axis]);
+			mixed[k] += 2.0 * factor[axis] * inverse[one][axis] * inverse[other][axis];
+		}
+	}
 }
 
 void AccelFrame::AddHalfSpace(AccelRegion& region, const VECTOR normal, DBL distance) const

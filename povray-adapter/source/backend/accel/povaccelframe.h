@@ -13,22 +13,46 @@
 #define POVRAY_BACKEND_POVACCELFRAME_H
 
 #include "backend/frame.h"
+#include "backend/accel/povaccelgrazing.h"
 #include "backend/accel/povaccelregion.h"
 
 namespace pov
 {
 
-/// How many cubes there are, from near to far.
-static const int ACCEL_REACHES = 3;
+/// How many cubes there are, from near to far, the last for grazing rays.
+static const int ACCEL_REACHES = 4;
+
+/// Which of the rays along a grazing direction does a box have to allow for?
+enum AccelRays
+{
+	ACCEL_NO_RAYS,
+	ACCEL_USUAL_RAYS, // as many as a box that is not endless can
+	ACCEL_ALL_RAYS
+};
 
 /// Boxes are found for rays that begin in this cube. From farther away, leaf tests are wrong by more.
 struct AccelReach
 {
 	VECTOR center;
 	DBL radius;
+	AccelGrazings *grazings; // rays that do not belong here; NULL: all do
+	bool wanting; // what is wanted for grazings is only now found
 
 	/// No place at all.
-	AccelReach() : radius(-1.0) { center[X] = center[Y] = center[Z] = 0.0; }
+	AccelReach() : radius(-1.0), grazings(NULL), wanting(false) { center[X] = center[Y] = center[Z] = 0.0; }
+
+	/// Does a ray along there not belong here, wherever it begins?
+	bool LeavesOut(const VECTOR direction) const { return (grazings != NULL) && grazings->Holds(direction); }
+
+	AccelRays Rays(const AccelGrazing& grazing) const
+	{
+		if(grazings == NULL)
+			return ACCEL_ALL_RAYS;
+		if(wanting)
+			grazings->Want(grazing);
+
+		return (wanting || grazings->Keeps(grazing)) ? ACCEL_NO_RAYS : ACCEL_USUAL_RAYS;
+	}
 
 	bool Holds(const VECTOR origin) const
 	{
@@ -49,6 +73,8 @@ class AccelFrame
 		VECTOR rounding;
 		/// Bounds in this space the way from the origin of a ray to any point of the shape.
 		DBL distance;
+		/// The same in the scene.
+		DBL way;
 		/// Bounds the coordinates of such a ray as well, seen from the origin of this space.
 		DBL length;
 		/// The error of a quadratic form with factors 1 at a computed hit, for a sphere, whose centre is subtracted first, and for
@@ -69,6 +95,15 @@ class AccelFrame
 
 		/// A bound on how much longer directions in the scene are than in this space.
 		DBL Stretch() const;
+
+		/// A bound on how much longer directions are in this space than in the scene.
+		DBL Shrinkage() const;
+
+		/// What times a direction in the scene is its component along an axis of this space.
+		void Along(int axis, VECTOR normal) const;
+
+		/// The form in the scene of the sum of factor[k] * direction[k]^2 in this space.
+		void SquaresInScene(const VECTOR factor, VECTOR square, VECTOR mixed) const;
 
 		/// A half-space in the scene from one in this space.
 		void AddHalfSpace(AccelRegion& region, const VECTOR normal, DBL distance) const;

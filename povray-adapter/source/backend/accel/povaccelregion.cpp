@@ -368,7 +368,8 @@ static DBL Quadric_Size(const AccelQuadric& quadric, const AccelRange y[3])
 		if((quadric.square[k] != 0.0) || (quadric.linear[k] != 0.0))
 			size += (fabs(quadric.square[k]) * farthest + fabs(quadric.linear[k])) * farthest;
 		largest = max(largest, fabs(quadric.square[k]));
-		length2 += Sqr(farthest);
+		if(k != quadric.allowed)
+			length2 += Sqr(farthest);
 	}
 
 	return quadric.exact ? size : size + largest * length2;
@@ -447,6 +448,94 @@ static void Derive_From_Quadric(const AccelQuadric& quadric, const accel_box& bo
 	}
 }
 
+static DBL Largest_Square(const AccelQuadric& quadric)
+{
+	return max(max(fabs(quadric.square[0]), fabs(quadric.square[1])), fabs(quadric.square[2]));
+}
+
+/// The axis along which a quadric has no square but what turning the axes leaves of 0, if its other squares are positive: the axis
+/// of a paraboloid. Otherwise -1.
+static int Open_Axis(const AccelQuadric& quadric)
+{
+	const DBL lost = ldexp(Largest_Square(quadric), -44);
+	int open = -1;
+
+	for(int k = 0; k < 3; k++)
+	{
+		if(quadric.square[k] > lost)
+			continue;
+		if((open >= 0) || (quadric.square[k] < -lost))
+			return -1;
+		open = k;
+	}
+
+	return open;
+}
+
+/*
+ * A paraboloid that a half-space cuts off, not along one of its axes. Let the linear
+ * term be -l*y. The form, with s*y^2 as what turning the axes may have left of a square
+ * or taken from it, plus (l + e) / n times that of the half-space, in which y has the
+ * factor n > 0, has no linear term but e*y. With e = 2 * FARTHEST * |s| both together are not negative for y > 0, no more than
+ * 2*e*|y| below 0 for y < 0, and there |y| is at most what the other terms leave, over
+ * l - e, `behind`. So what remains is an elliptic cylinder, from which a box follows.
+ * False if the half-space does not cut it off.
+ */
+static bool Cut_Paraboloid(const AccelQuadric& quadric, int open, const AccelHalfSpace& half, AccelQuadric& cylinder, AccelHalfSpace& apex)
+{
+	const DBL linear = fabs(quadric.linear[open]), rest = 2.0 * FARTHEST * ldexp(Largest_Square(quadric), -43);
+	const DBL forward = (quadric.linear[open] < 0.0) ? 1.0 : -1.0;
+	DBL left = -quadric.constant, along[3];
+
+	for(int k = 0; k < 3; k++)
+	{
+		VDot(along[k], half.normal, quadric.axis[k]);
+		if(k != open)
+			left += 0.25 * Sqr(quadric.linear[k]) / quadric.square[k];
+	}
+	if(!(forward * along[open] > 1.0e-3) || !(linear > 2.0 * rest))
+		return false;
+
+	const DBL factor = (linear + rest) / (forward * along[open]);
+	const DBL behind = max(left, 0.0) / (linear - rest);
+
+	cylinder = quadric;
+	for(int k = 0; k < 3; k++)
+		cylinder.linear[k] += factor * along[k];
+	cylinder.square[open] = cylinder.linear[open] = 0.0;
+	cylinder.constant -= factor * half.distance + 2.0 * rest * behind + ldexp(linear + factor, -50) * 2.0 * FARTHEST;
+	cylinder.exact = false;
+	cylinder.allowed = open;
+	VScale(apex.normal, quadric.axis[open], -forward);
+	apex.distance = behind * (1.0 + ldexp(1.0, -40));
+
+	return true;
+}
+
+/// Adds to `derived` what follows if a half-space cuts off a paraboloid.
+static void Derive_From_Cuts(const AccelQuadric& quadric, const accel_box& box, const vector<AccelHalfSpace>& halves, vector<AccelHalfSpace>& derived)
+{
+	const int open = Open_Axis(quadric);
+
+	if(open < 0)
+		return;
+
+	const vector<AccelHalfSpace> sides = Sides_And(box, halves);
+	bool cut = false;
+
+	for(size_t i = 0; i < sides.size(); i++)
+	{
+		AccelQuadric cylinder;
+		AccelHalfSpace apex;
+
+		if(Cut_Paraboloid(quadric, open, sides[i], cylinder, apex) == false)
+			continue;
+		if(cut == false)
+			derived.push_back(apex);
+		cut = true;
+		Derive_From_Quadric(cylinder, box, halves, derived);
+	}
+}
 
 
 /*****************************************************************************
@@ -505,8 +594,11 @@ accel_box AccelRegion::Box() const
 	{
 		vector<AccelHalfSpace> all(halves);
 
+		// of many half-spaces the first ones are combined, so those of cylinders come last
 		for(vector<AccelQuadric>::const_iterator quadric = quadrics.begin(); quadric != quadrics.end(); quadric++)
 			Derive_From_Quadric(*quadric, result, all, all);
+		for(vector<AccelQuadric>::const_iterator quadric = quadrics.begin(); quadric != quadrics.end(); quadric++)
+			Derive_From_Cuts(*quadric, result, halves, all);
 		if(Is_Finite(result) == false)
 			Cut_With_Combinations(result, all);
 		for(int pass = 0; pass < 3; pass++)

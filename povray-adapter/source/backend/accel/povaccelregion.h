@@ -55,6 +55,9 @@ struct AccelQuadric
 	DBL linear[3];
 	DBL constant;
 	bool exact; // the axes are those of space, so that nothing was rounded
+	int allowed; // the axis along which the constant allows for rounding, or -1
+
+	AccelQuadric() : allowed(-1) { }
 };
 
 /// The points that lie in a box, in all half-spaces and in all quadrics.

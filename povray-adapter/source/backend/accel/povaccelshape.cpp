@@ -57,6 +57,12 @@ void AccelBounds::SetBody(const AccelFrame& frame, const accel_box& box, bool in
 	(inverted ? outside : inside) = hits;
 }
 
+void AccelBounds::LoseHits()
+{
+	hits = AccelRegion();
+	solid = false;
+}
+
 void AccelBounds::SetSurface(const AccelFrame& frame, const accel_box& box)
 {
 	hits = AccelRegion(box);
@@ -103,21 +109,43 @@ accel_box Box_Of_Sphere(const AccelFrame& frame, const VECTOR center, DBL radius
 }
 
 /*
- * Box::Intersect does not make the direction a unit vector. It takes a component up
- * to EPSILON for 0, so that a hit may drift by that times its depth to the side of
- * the slabs; the depth is bounded by the largest component, which is at least
- * 1 / (sqrt(3) * stretch). And it lets a hit lie CLOSE_TOLERANCE (boxes.cpp: 1e-6)
- * behind a side, in the depth of the scene. Where all components may be too small, it
- * may report BOUND_HUGE as depth.
+ * How far hits may drift to the side along an axis, as components up to EPSILON of a
+ * direction that is no unit vector are taken for 0. The depth is bounded by the largest
+ * component, which is at least 1 / (sqrt(3) * stretch). Of a box made large by its
+ * transformation this is more than the depth at which hits begin to count, so that a ray
+ * that leaves the box would still be tested with it. Components that are less than rounding
+ * leaves of 0 add next to nothing, so there are few rays that drift.
  */
-accel_box Box_Of_Container(const AccelFrame& frame, const VECTOR corner1, const VECTOR corner2)
+static DBL Drift_Along(int axis, const AccelFrame& frame, const AccelReach& reach)
 {
-	const DBL stretch = 2.0 * frame.Stretch();
-	accel_box box = Box_Between(corner1, corner2);
+	const DBL drift = 2.0 * EPSILON * frame.Stretch() * frame.length, almost_zero = ldexp(1.0, -44);
+	VECTOR normal;
 
-	if(!(EPSILON * stretch < 1.0))
+	if(drift * frame.Stretch() < MIN_ISECT_DEPTH / 16.0)
+		return drift;
+	frame.Along(axis, normal);
+
+	const DBL size = max(max(fabs(normal[X]), fabs(normal[Y])), fabs(normal[Z]));
+	const AccelGrazing grazing = AccelGrazing::Linear(normal, almost_zero * size, 1.01 * EPSILON);
+
+	return (reach.Rays(grazing) == ACCEL_NO_RAYS) ? min(drift, almost_zero * size * frame.way) : drift;
+}
+
+/*
+ * Besides, Box::Intersect lets a hit lie CLOSE_TOLERANCE (boxes.cpp: 1e-6) behind a
+ * side, in the depth of the scene. Where all components may be too small, it may
+ * report BOUND_HUGE as depth.
+ */
+accel_box Box_Of_Container(const AccelFrame& frame, const AccelReach& reach, const VECTOR corner1, const VECTOR corner2)
+{
+	accel_box box = Box_Between(corner1, corner2);
+	VECTOR drift;
+
+	if(!(2.0 * EPSILON * frame.Stretch() < 1.0))
 		return Infinite_Box();
-	Grow_Box(box, EPSILON * stretch * frame.length);
+	for(int axis = X; axis <= Z; axis++)
+		drift[axis] = Drift_Along(axis, frame, reach);
+	Grow_Box(box, drift);
 	Grow_Box(box, frame.rounding);
 	box = frame.ToScene(box);
 	Grow_Box(box, 1.1e-6);
@@ -144,17 +172,47 @@ void Bound_Shape(const Box& box, const AccelReach& reach, AccelBounds& bounds)
 {
 	const AccelFrame frame(box.Trans, reach, Box_Between(box.bounds[0], box.bounds[1]));
 
-	bounds.SetBody(frame, Box_Of_Container(frame, box.bounds[0], box.bounds[1]), Test_Flag(&box, INVERTED_FLAG));
+	bounds.SetBody(frame, Box_Of_Container(frame, reach, box.bounds[0], box.bounds[1]), Test_Flag(&box, INVERTED_FLAG));
 }
 
 /*
  * In its space a cylinder has radius 1, a cone the radius of its height, and both end
- * at height 1. Heights are checked at the hit. For a cylinder `form` bounds the
- * square of the radius, since a = d*d there. In that of a cone, a = x*x + y*y - z*z
- * becomes small for rays along its side, down to EPSILON, and the error grows by
- * 1 / a, to no more than `form` / EPSILON. Up to 2^-14 that is granted; more would
- * make boxes too large for the few rays so close to the side: an allowance of 1/32.
+ * at height 1. Heights are checked at the hit. For a cylinder `form` bounds the error of
+ * the square of the radius, since a = d*d there. In that of a cone, a = x*x + y*y - z*z
+ * becomes small for rays along its side.
+ *
+ * Let F(t) = a*t*t + 2*b*t + c be the form, v half its slope at the true root, the root
+ * of the discriminant, and L bound the ray as in povaccelframe.cpp. v is at most the
+ * distance |p| of the hit from the apex. As b differs from v by a times the way, |b| is
+ * at most a*L + v, and |c| at most a*L*L + 2*v*L. The products that b and c are made of
+ * are wrong by 5u of L and of L*L, so the discriminant by 20u * (a*L*L + v*L), and the
+ * form at the root by that over a, 20u * (L*L + v*L / a), and 4u * v*v / a for rounding
+ * the root. The first is part of `form`; the rest is at most 32u * |p| * L / a, of which
+ * the double is granted. |p| is at most the root of 2 and the room itself, which leads
+ * to a quadratic equation for the root of the room.
+ *
+ * Rays with a below 2^-14 are grazing ones, and below EPSILON a is taken for 0. Where they
+ * are not kept apart and the room for all would be large, an allowance of 1/32 does.
  */
+static DBL Room_Of_Cone(const AccelFrame& frame, const AccelReach& reach)
+{
+	const DBL usual = ldexp(frame.length, -47 + 14), all = ldexp(frame.length, -47) / EPSILON;
+	const DBL roomForUsual = Sqr(usual + sqrt(frame.form + 2.0 * usual));
+	const DBL roomForAll = Sqr(all + sqrt(frame.form + 2.0 * all + EPSILON * Sqr(frame.length)));
+	VECTOR factor, square, mixed;
+
+	Make_Vector(factor, 1.0, 1.0, -1.0);
+	frame.SquaresInScene(factor, square, mixed);
+	switch(reach.Rays(AccelGrazing::Quadratic(square, mixed, ldexp(Sqr(frame.Shrinkage()), -14))))
+	{
+		case ACCEL_NO_RAYS: return roomForUsual;
+		case ACCEL_USUAL_RAYS: return min(roomForAll, roomForUsual + 1.0 / 32.0);
+		case ACCEL_ALL_RAYS: break;
+	}
+
+	return roomForAll;
+}
+
 void Bound_Shape(const Cone& cone, const AccelReach& reach, AccelBounds& bounds)
 {
 	VECTOR low, high;
@@ -167,7 +225,7 @@ void Bound_Shape(const Cone& cone, const AccelReach& reach, AccelBounds& bounds)
 
 	if(!Test_Flag(&cone, CYLINDER_FLAG))
 	{
-		room = min(room / EPSILON, ldexp(room, 14) + 1.0 / 32.0);
+		room = Room_Of_Cone(frame, reach);
 		base = cone.dist;
 	}
 
@@ -313,7 +371,8 @@ void Bound_Shape(const HField& field, const AccelReach& reach, AccelBounds& boun
 	accel_box column = Box_Between(field.bounding_corner1, field.bounding_corner2);
 	const AccelFrame frame(field.Trans, reach, column);
 
-	bounds.SetBody(frame, Box_Of_Container(frame, field.bounding_corner1, field.bounding_corner2), Test_Flag(&field, INVERTED_FLAG));
+	bounds.SetBody(frame, Box_Of_Container(frame, reach, field.bounding_corner1, field.bounding_corner2),
+	               Test_Flag(&field, INVERTED_FLAG));
 	column.lo[X] = min(column.lo[X], 0.0);
 	column.lo[Z] = min(column.lo[Z], 0.0);
 	Grow_Box(column, frame.rounding);

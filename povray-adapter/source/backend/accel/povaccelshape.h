@@ -68,6 +68,9 @@ struct AccelBounds
 	/// A body, given a box around its hits, which it also lies in. If it is inverted, what is outside of it lies there.
 	void SetBody(const AccelFrame& frame, const accel_box& box, bool inverted);
 
+	/// Hits may be anywhere. Inside and outside remain.
+	void LoseHits();
+
 	/// A surface, given a box around its hits. The inside may be anywhere.
 	void SetSurface(const AccelFrame& frame, const accel_box& box);
 
@@ -110,7 +113,7 @@ void Bound_Shape(const Parametric& surface, const AccelReach& reach, AccelBounds
 void Bound_Shape(const Fractal& fractal, const AccelReach& reach, AccelBounds& bounds);
 
 /// The box in the scene of what Box::Intersect finds between two corners.
-accel_box Box_Of_Container(const AccelFrame& frame, const VECTOR corner1, const VECTOR corner2);
+accel_box Box_Of_Container(const AccelFrame& frame, const AccelReach& reach, const VECTOR corner1, const VECTOR corner2);
 
 /// The box in the scene of what a quadratic solver finds of a sphere with this squared radius.
 accel_box Box_Of_Sphere(const AccelFrame& frame, const VECTOR center, DBL radius2);

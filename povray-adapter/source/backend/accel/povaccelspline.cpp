@@ -87,6 +87,11 @@ static PolynomialRange Range_Of_Cubic(DBL a, DBL b, DBL c, DBL d, DBL first = 0.
  * farther away the ray begins, in units of the extent. What was met was an error of
  * u * distance^3 and more for a sor, of which 64 times is allowed for, and of
  * 2^-40 * distance^2 for a lathe, of which four times.
+ *
+ * A lathe divides a height by the component of the direction along its axis, down to
+ * EPSILON, and a sor multiplies the leading coefficient with the third power of it. So
+ * where it is small, hits may be anywhere along the ray: these are grazing rays. 2^-9 is an
+ * allowance, four times what was met of a sor.
  */
 static void Bound_Turned(const ObjectBase& object, DBL radius, const PolynomialRange& height, DBL allowance, int power, const AccelReach& reach, AccelBounds& bounds)
 {
@@ -102,6 +107,12 @@ static void Bound_Turned(const ObjectBase& object, DBL radius, const PolynomialR
 		frame.CylinderToScene(Y, height.lo - margin, height.hi + margin, radius + margin) : Infinite_Box();
 
 	bounds.SetBody(frame, box, Test_Flag(&object, INVERTED_FLAG));
+
+	VECTOR normal;
+
+	frame.Along(Y, normal);
+	if(reach.Rays(AccelGrazing::Linear(normal, 0.5 * EPSILON / frame.Stretch(), ldexp(frame.Shrinkage(), -9))) == ACCEL_ALL_RAYS)
+		bounds.LoseHits();
 }
 
 void Bound_Shape(const Lathe& lathe, const AccelReach& reach, AccelBounds& bounds)

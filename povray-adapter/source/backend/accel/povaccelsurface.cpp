@@ -129,31 +129,52 @@ static DBL Rounding_Of_Form(const Quadric& quadric, DBL length)
 
 /*
  * What dividing by the quadratic term `a` of the ray adds to that: Quadric::Intersect
- * does so for any a but 0. The root is wrong by 2u * |b| / a, the form there by
- * 4u * b*b / a. Where all squares have the same sign, b*b is at most a times the form of
- * the origin seen from the middle of the quadric, which is part of `form`. But along an
- * axis without square and with a linear term, that of a paraboloid, b stays |linear| / 2
- * when a vanishes. An allowance: room is made for rays of a down to 2^-40 times the least
- * square, which is those that are off the axis by a millionth; nearer to it, hits may be
- * anywhere. Where squares have both signs the same happens to the few rays along a line
- * in the surface, for which no room is made.
+ * does so for any a but 0. The root is wrong by 4u * sqrt(b*b + |a*c|) / a, the form
+ * there by 8u * b*b / a and what `form` allows for. Where all squares have the same
+ * sign, b*b is at most a times the form of the origin seen from the middle of the
+ * quadric, which is part of `form` as well. There are two others:
+ *
+ * - Along an axis without square and with a linear term, that of a paraboloid, b stays
+ *   |linear| / 2 when a vanishes. Rays with a below 2^-20 times the least square are
+ *   grazing ones. Where they are not kept apart, room is made for rays of a down to 2^-40
+ *   of it, which is those that are off the axis by a millionth: an allowance.
+ * - Where squares have both signs, b is bounded by the size of the form, and rays with a
+ *   below 2^-12 times the largest square are grazing ones, along a line in the surface.
+ *   Where they are not kept apart, no room is made for them.
  */
-static DBL Rounding_Of_Root(const AccelQuadric& quadric)
+static DBL Rounding_Of_Root(const Quadric& quadric, const AccelQuadric& axes, const AccelReach& reach, DBL length, AccelRays& rays)
 {
-	DBL largest = 0.0, least = HUGE_VAL, linear = 0.0;
+	DBL largest = 0.0, least = HUGE_VAL, linear = 0.0, all_linear = 0.0;
+	bool positive = false, negative = false;
 
 	for(int k = X; k <= Z; k++)
-		largest = max(largest, fabs(quadric.square[k]));
+		largest = max(largest, fabs(axes.square[k]));
 	for(int k = X; k <= Z; k++)
 	{
+		all_linear += fabs(axes.linear[k]);
 		// less is what turning the axes leaves of 0
-		if(fabs(quadric.square[k]) > ldexp(largest, -44))
-			least = min(least, fabs(quadric.square[k]));
+		if(fabs(axes.square[k]) > ldexp(largest, -44))
+		{
+			least = min(least, fabs(axes.square[k]));
+			positive = positive || (axes.square[k] > 0.0);
+			negative = negative || (axes.square[k] < 0.0);
+		}
 		else
-			linear += fabs(quadric.linear[k]);
+			linear += fabs(axes.linear[k]);
+	}
+	rays = ACCEL_NO_RAYS;
+	if(positive && negative)
+	{
+		rays = reach.Rays(AccelGrazing::Quadratic(quadric.Square_Terms, quadric.Mixed_Terms, ldexp(largest, -12)));
+		return (rays == ACCEL_NO_RAYS) ? ldexp(Sqr(3.0 * largest * length + all_linear) / largest, -38) : 0.0;
+	}
+	if((linear > 0.0) && (least < HUGE_VAL))
+	{
+		rays = reach.Rays(AccelGrazing::Quadratic(quadric.Square_Terms, quadric.Mixed_Terms, ldexp(least, -20)));
+		return ldexp(Sqr(linear) / least, (rays == ACCEL_NO_RAYS) ? -31 : -13);
 	}
 
-	return ldexp(Sqr(linear) / least, -13); // 0 for a plane, of which a is 0
+	return 0.0;
 }
 
 /// The points where the form is not positive are inside; at a hit it is 0, so it is also not negative. Inverting turns all signs.
@@ -165,7 +186,8 @@ void Bound_Shape(const Quadric& quadric, const AccelReach& reach, AccelBounds& b
 
 	const AccelFrame frame(NULL, reach, Box_Around(center, 0.0)); // there is no transformation to keep apart
 	AccelQuadric surface = Find_Axes(quadric);
-	const DBL rounded = Rounding_Of_Form(quadric, frame.length) + Rounding_Of_Root(surface);
+	AccelRays rays;
+	const DBL rounded = Rounding_Of_Form(quadric, frame.length) + Rounding_Of_Root(quadric, surface, reach, frame.length, rays);
 
 	bounds.SetSurface(AccelFrame(NULL, reach, Infinite_Box()), Infinite_Box());
 	surface.constant = quadric.Constant - rounded;
@@ -179,6 +201,8 @@ void Bound_Shape(const Quadric& quadric, const AccelReach& reach, AccelBounds& b
 	surface.constant = -quadric.Constant - rounded;
 	bounds.outside.quadrics.push_back(surface);
 	bounds.hits.quadrics.push_back(surface);
+	if(rays == ACCEL_ALL_RAYS)
+		bounds.LoseHits();
 }
 
 
@@ -208,7 +232,7 @@ template<class SURFACE> static accel_box Box_Of_Contained(const SURFACE& surface
 		const AccelFrame frame(surface.Trans, reach, Box_Between(corner1, corner2));
 
 		Assign_Vector(bounds.slack, frame.slack);
-		return Box_Of_Container(frame, corner1, corner2);
+		return Box_Of_Container(frame, reach, corner1, corner2);
 	}
 }
 
