@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 #
 # Renders scenes with stock POV-Ray's linear search (-MB, and `hierarchy off` in our own meshes) and
-# with povray-accel, once with each kind of structure, and compares the pixels byte for byte. Stock's own +BM1 and +BM2 stand beside: where
-# they deviate from -MB, stock's methods disagree with each other. Then renders each scene again
-# with Accelerator_Verify=On, where every query is compared with a linear search, object and depth.
+# with povray-accel, once with each kind of structure, and compares the pixels byte for byte. Stock's
+# own +BM1 and +BM2 stand beside: where they deviate from -MB, stock's methods disagree with each
+# other. Then renders each scene again with Accelerator_Verify=On, where every query is compared with
+# a linear search, object and depth.
 #
 # Ends with 0 only if no pixel and no query differs, and every scene was rendered and verified.
 set -euo pipefail
