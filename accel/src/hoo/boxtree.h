@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * A binary tree of boxes and its walk, nearest child first: what the kinds hoo (over clusters) and
- * bvh (over primitives) are made of.
+ * A binary tree of boxes and its walk, nearest child first: what hoo's classic form puts over its
+ * clusters. The wide form has one tree for all (wide/wide.h).
  *
  * Encoding: node 0 is the root; a node holds the boxes of its two children, axis by axis and side
  * by side, and what they are: an inner node, or a leaf whose meaning is the kind's. Invariant: a

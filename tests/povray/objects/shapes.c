@@ -15,7 +15,7 @@ const struct shape shapes[] = {
     {"lathe", SHAPE_FINITE | SHAPE_SOLID | SHAPE_STURM | SHAPE_LOOSE, NULL, write_lathe},
     {"sor", SHAPE_FINITE | SHAPE_SOLID | SHAPE_STURM | SHAPE_LOOSE, NULL, write_sor},
     {"sphere_sweep", SHAPE_FINITE | SHAPE_SOLID, NULL, write_sphere_sweep},
-    {"text", SHAPE_FINITE | SHAPE_SOLID, NULL, write_text_object},
+    {"text", SHAPE_FINITE, NULL, write_text_object}, /* its inside may go on to the left */
     {"blob", SHAPE_FINITE | SHAPE_SOLID | SHAPE_STURM | SHAPE_HIERARCHY, NULL, write_blob},
     {"blob_negative", SHAPE_FINITE | SHAPE_STURM | SHAPE_HIERARCHY, NULL, write_blob_negative},
     {"julia_fractal", SHAPE_FINITE, NULL, write_julia_fractal},

@@ -11,9 +11,10 @@
  * own, and the boxes for all others need not allow for them.
  *
  * A form that only some of many shapes have is not worth asking each ray for: those
- * that most shapes share are kept, up to MOST_KEPT. Shapes with other forms allow for
- * all rays, as far as they can. It is a derivative work of POV-Ray 3.7.0.10; see
- * LICENSE.
+ * that most shapes share are kept, quadratic ones up to MOST_QUADRATIC, and linear ones,
+ * without which no allowance would do and which take less time, up to MOST_LINEAR. Shapes
+ * with other forms allow for all rays, as far as they can. It is a derivative work of
+ * POV-Ray 3.7.0.10; see LICENSE.
  *******************************************************************************/
 
 #ifndef POVRAY_BACKEND_POVACCELGRAZING_H
@@ -60,6 +61,8 @@ class AccelGrazing
 
 		/// Is the form one, and are there directions for which it is not small?
 		bool IsUseful() const { return (most > 0.0) && (most < 0.25); }
+
+		bool IsLinear() const { return linear; }
 
 		bool Holds(const VECTOR d) const
 		{
@@ -147,11 +150,18 @@ class AccelGrazings
 		/// Keeps those that are wanted most. False if some shape may not get what it wants.
 		bool Keep()
 		{
-			const bool all = (wanted.size() <= MOST_KEPT);
+			size_t left[2] = { MOST_QUADRATIC, MOST_LINEAR };
+			bool all = true;
 
 			std::stable_sort(wanted.begin(), wanted.end());
-			for(size_t i = 0; (i < wanted.size()) && (i < MOST_KEPT); i++)
+			for(size_t i = 0; i < wanted.size(); i++)
 			{
+				size_t& room = left[wanted[i].grazing.IsLinear()];
+
+				all = all && (room > 0);
+				if(room == 0)
+					continue;
+				room--;
 				kept.push_back(wanted[i].grazing);
 				kept.back().Widen();
 			}
@@ -187,7 +197,7 @@ class AccelGrazings
 			return holds;
 		}
 	private:
-		static const size_t MOST_WANTED = 64, MOST_KEPT = 4;
+		static const size_t MOST_WANTED = 64, MOST_QUADRATIC = 4, MOST_LINEAR = 32;
 
 		struct Wanted
 		{
