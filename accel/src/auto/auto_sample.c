@@ -136,7 +136,7 @@ static bool take(struct build *build, struct sample *s, uint32_t id, double chan
     return add(&build->a->memory, s, p, id, sqrt(1.0 / chance)) || accel_build_no_memory(build);
 }
 
-bool accel_sample_take(struct build *build, struct sample *s)
+bool accel_sample_take(struct build *build, struct sample *s, size_t most)
 {
     const struct primitives *p = &build->a->prims;
     const size_t n = p->bounded.count;
@@ -148,7 +148,7 @@ bool accel_sample_take(struct build *build, struct sample *s)
     for (size_t i = 0; i < n; i++) {
         const uint32_t id = p->bounded.at[i];
         const double share = 0.5 * surface(p, &frame, id) / sum + 0.5 / (double)n;
-        const double chance = n > SAMPLE ? fmin(1.0, SAMPLE * share) : 1.0;
+        const double chance = n > most ? fmin(1.0, (double)most * share) : 1.0;
         due += chance;
         if (due >= 1.0 && !take(build, s, id, chance))
             return false;

@@ -17,8 +17,6 @@
 #include "../core/cost.h"
 #include "../core/structure.h"
 
-enum { SAMPLE = 4096 };
-
 /* The sample as a scene of at most three geometries. */
 struct sample {
     ARRAY_OF(double) vertices;  /* of the triangles */
@@ -32,9 +30,9 @@ struct sample {
     size_t count;   /* primitives */
 };
 
-/* Fills *s: about SAMPLE primitives, or all where there are no more. *s must be zero;
+/* Fills *s: about `most` primitives, or all where there are no more. *s must be zero;
  * accel_sample_free ends it, also after a failure. */
-bool accel_sample_take(struct build *build, struct sample *s);
+bool accel_sample_take(struct build *build, struct sample *s, size_t most);
 
 void accel_sample_free(struct memory *m, struct sample *s);
 

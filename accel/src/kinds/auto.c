@@ -8,16 +8,18 @@
  *     time = build(n) + rays * (ray + node * nodes + test * tests + call * calls)
  *
  * with the kind's cost figures (cost.h) and the way its counts grow from the sample's size to n.
- * Counts, not clocks, so the choice is the same on every machine and run. The selector's idea is
- * from Subramanian and Fussell, "Automatic Termination Criteria for Ray Tracing Hierarchies", GI
- * 1991, and Hapala, Karlik and Havran, "When It Makes Sense to Use Uniform Grids for Ray Tracing",
- * 2011: build, measure, decide.
+ * Counts, not clocks, so the choice is the same on every machine and run. A small sample and few
+ * rays come first; those that take no more than twice as long as the best of them are tried again
+ * with more. A kind that would lose even if each ray came to its hit at once is not tried. The
+ * selector's idea is from Subramanian and Fussell, "Automatic Termination Criteria for Ray Tracing
+ * Hierarchies", GI 1991, and Hapala, Karlik and Havran, "When It Makes Sense to Use Uniform Grids
+ * for Ray Tracing", 2011: build, measure, decide.
  *
  * The pilot: the host's rays where it gives some (accel_hooks.pilot), else rays from random points
  * of a box three times as large as the scene's towards random points of that; and from what those
  * hit, rays in random directions: what a path tracer or photon map will ask.
  *
- * Cost: some tens of milliseconds, whatever the scene. Bad at: scenes whose structure a sample does
+ * Cost: some milliseconds, whatever the scene. Bad at: scenes whose structure a sample does
  * not show; hosts whose later rays are unlike the pilot.
  */
 #include "../core/kind.h"
@@ -27,8 +29,14 @@
 
 #include <stdio.h>
 
-/* First rays of the pilot; of more that the host gives, every so many-th. */
-enum { PILOT = 256 };
+/* What is tried in turn: primitives of the sample, and first rays of the pilot; of more that the
+ * host gives, every so many-th. */
+static const struct round {
+    size_t sample, pilot;
+} rounds[] = {{512, 64}, {4096, 256}};
+
+/* What takes so many times as long as the best in one round is not in the next. */
+#define HOPELESS 2.0
 
 /* Below this many seconds of predicted linear search, choosing costs more than it can save. */
 #define WORTH_CHOOSING 0.005
@@ -48,17 +56,22 @@ struct candidate {
     const struct accel_kind *kind;
     double nodes, tests, calls; /* per ray of the pilot */
     double seconds;             /* predicted for the whole scene */
+    bool tried;                 /* else these are the least that it would take */
 };
 
 /* What is the same for all kinds. */
 struct chooser {
     struct build *build;
-    accel_hooks hooks; /* of the builds over the sample; the chooser is their user */
+    const struct round *round; /* under way */
+    size_t last;               /* the number of the last one */
+    accel_hooks hooks;         /* of the builds over the sample; the chooser is their user */
     struct sample sample;
     double triangles; /* share of the primitives */
+    double objects;   /* share of the primitives */
     double call;      /* nanoseconds of a call of an object, mean */
-    struct candidate tried[MAX_KINDS];
-    size_t count; /* of them */
+    double hits;      /* share of the pilot's rays, the same in every kind; 0 until one was tried */
+    struct candidate known[MAX_KINDS]; /* the best first */
+    size_t count;                      /* of them */
 };
 
 /* ------------------------------------------------------------------------- pilot ---- */
@@ -84,9 +97,10 @@ static accel_ray line(const accel_box *box, uint64_t i)
     return accel_ray_from(from, dir);
 }
 
-static size_t pilot_count(const accel_hooks *hooks)
+static size_t pilot_count(const struct chooser *c)
 {
-    return hooks->pilot_count > 0 && hooks->pilot_count < PILOT ? hooks->pilot_count : PILOT;
+    const size_t given = c->build->hooks->pilot_count;
+    return given > 0 && given < c->round->pilot ? given : c->round->pilot;
 }
 
 static accel_ray first_ray(const struct chooser *c, size_t i)
@@ -94,7 +108,7 @@ static accel_ray first_ray(const struct chooser *c, size_t i)
     const accel_hooks *hooks = c->build->hooks;
     if (hooks->pilot_count == 0)
         return line(&c->sample.box, i);
-    accel_ray ray = hooks->pilot[i * hooks->pilot_count / pilot_count(hooks)];
+    accel_ray ray = hooks->pilot[i * hooks->pilot_count / pilot_count(c)];
     ray.skip = (accel_id){ACCEL_NONE, ACCEL_NONE}; /* it names a primitive of the scene */
     return ray;
 }
@@ -106,8 +120,8 @@ enum { RAYS_A_TICK = 32 };
 static bool fly_pilot(struct chooser *c, const accel *a, struct candidate *kind)
 {
     accel_query q = {0};
-    const size_t count = pilot_count(c->build->hooks);
-    double rays = 0.0;
+    const size_t count = pilot_count(c);
+    double rays = 0.0, hits = 0.0;
     c->sample.calls = 0;
     for (size_t i = 0; i < count; i++, rays++) {
         const accel_ray ray = first_ray(c, i);
@@ -116,6 +130,7 @@ static bool fly_pilot(struct chooser *c, const accel *a, struct candidate *kind)
             return false;
         if (!accel_closest(a, &ray, &hit, &q))
             continue;
+        hits++;
         double from[3], dir[3];
         for (int k = 0; k < 3; k++) {
             from[k] = ray.org[k] + hit.t * ray.dir[k];
@@ -123,9 +138,10 @@ static bool fly_pilot(struct chooser *c, const accel *a, struct candidate *kind)
         }
         accel_ray next = accel_ray_from(from, dir);
         next.skip = (accel_id){hit.geom, hit.prim};
-        accel_closest(a, &next, &hit, &q);
+        hits += accel_closest(a, &next, &hit, &q);
         rays++;
     }
+    c->hits = hits / rays;
     kind->nodes = (double)q.nodes / rays;
     kind->tests = (double)q.tests / rays;
     kind->calls = (double)c->sample.calls / rays;
@@ -167,6 +183,18 @@ static double predict(const struct chooser *c, const struct candidate *k)
     return 1e-9 * (k->kind->cost.build * n * log2(n + 2) + rays * predict_ray(c, k));
 }
 
+/* The least that a kind may take, knowing the hits: a ray that hits visits a node and tests what it
+ * hits; linear tests all. */
+static struct candidate at_least(const struct chooser *c, const struct accel_kind *kind)
+{
+    struct candidate k = {.kind = kind, .nodes = c->hits, .tests = c->hits};
+    k.calls = c->objects == 1.0 ? c->hits : 0.0;
+    if (kind->cost.growth == GROWS_LIKE_N)
+        k.tests = (double)c->sample.count;
+    k.seconds = predict(c, &k);
+    return k;
+}
+
 /* What the scene is made of. */
 static void weigh_primitives(struct chooser *c)
 {
@@ -182,6 +210,7 @@ static void weigh_primitives(struct chooser *c)
         }
     }
     c->triangles = triangles / p->count;
+    c->objects = objects / p->count;
     c->call = objects > 0.0 ? calls / objects : 0.0;
 }
 
@@ -206,7 +235,7 @@ static accel_hooks hooks_of(struct chooser *c)
     return (accel_hooks){.user = c,
                          .resize = host->resize ? resize_of_host : NULL,
                          .progress = go_on,
-                         .threads = host->threads};
+                         .threads = 1}; /* to start more takes longer */
 }
 
 static bool try_kind(struct chooser *c, struct candidate *k)
@@ -228,26 +257,69 @@ static bool try_kind(struct chooser *c, struct candidate *k)
     return fine;
 }
 
-/* Tries all kinds that may be chosen; the best comes first. */
-static bool try_kinds(struct chooser *c)
+/* All kinds that may be chosen, those whose rays cost least to begin with first. */
+static void list_kinds(struct chooser *c)
 {
-    size_t all = 0;
-    while (accel_kind_list[all])
-        all++;
-    for (size_t i = 0; i < all; i++) {
-        struct candidate k = {.kind = (const struct accel_kind *)accel_kind_list[i]};
-        if (k.kind->choose)
+    for (size_t i = 0; accel_kind_list[i]; i++) {
+        const struct accel_kind *kind = (const struct accel_kind *)accel_kind_list[i];
+        if (kind->choose)
             continue;
-        if (!try_kind(c, &k))
-            return false;
         size_t at = c->count++;
-        for (; at > 0 && k.seconds < c->tried[at - 1].seconds; at--)
-            c->tried[at] = c->tried[at - 1];
-        c->tried[at] = k;
-        if (!accel_build_tick(c->build, (double)(i + 1) / (double)all))
+        for (; at > 0 && kind->cost.ray < c->known[at - 1].kind->cost.ray; at--)
+            c->known[at] = c->known[at - 1];
+        c->known[at] = (struct candidate){.kind = kind};
+    }
+}
+
+/* Tries the first `count` kinds again, as far as they may be best, and sorts them. */
+static bool try_kinds(struct chooser *c, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        struct candidate k = at_least(c, c->known[i].kind);
+        k.tried = i == 0 || k.seconds <= c->known[0].seconds;
+        if (k.tried && !try_kind(c, &k))
+            return false;
+        size_t at = i;
+        for (; at > 0 && k.seconds < c->known[at - 1].seconds; at--)
+            c->known[at] = c->known[at - 1];
+        c->known[at] = k;
+        const double done = (double)(c->round - rounds) + (double)(i + 1) / (double)count;
+        if (!accel_build_tick(c->build, done / (double)(c->last + 1)))
             return false;
     }
     return true;
+}
+
+/* How many of the kinds, which are sorted, are worth another round. */
+static size_t count_hopeful(const struct chooser *c)
+{
+    size_t count = 1;
+    while (count < c->count && c->known[count].tried &&
+           c->known[count].seconds <= HOPELESS * c->known[0].seconds)
+        count++;
+    return count;
+}
+
+/* One round of trying the first `count` kinds. */
+static bool play(struct chooser *c, const struct round *round, size_t count)
+{
+    c->round = round;
+    c->hits = 0.0;
+    const bool fine = accel_sample_take(c->build, &c->sample, round->sample) && try_kinds(c, count);
+    accel_sample_free(&c->build->a->memory, &c->sample);
+    c->sample = (struct sample){.count = 0};
+    return fine;
+}
+
+/* Sorts the kinds, the best first. */
+static bool compare_kinds(struct chooser *c)
+{
+    list_kinds(c);
+    c->last = c->build->a->prims.bounded.count > rounds[0].sample;
+    if (!play(c, &rounds[0], c->count))
+        return false;
+    const size_t hopeful = count_hopeful(c);
+    return hopeful == 1 || c->last == 0 || play(c, &rounds[1], hopeful);
 }
 
 /* Rounded to tenths. */
@@ -259,19 +331,20 @@ static struct number_text tenths(double x)
 /* Says what was chosen and why. */
 static void explain(const struct chooser *c)
 {
-    const struct candidate *best = &c->tried[0];
+    const struct candidate *best = &c->known[0];
     const bool given = c->build->hooks->pilot_count > 0;
     accel_build_note(c->build,
                      "auto: %s; pilot of %zu %s and what leaves their hits: %s nodes, %s "
                      "tests, %s calls each",
-                     best->kind->info.name, pilot_count(c->build->hooks),
+                     best->kind->info.name, pilot_count(c),
                      given ? "rays of the host" : "lines of its own", tenths(best->nodes).at,
                      tenths(best->tests).at, tenths(best->calls).at);
-    char list[120];
+    char list[160];
     int used = 0;
     for (size_t i = 0; i < c->count && used < (int)sizeof list; i++)
-        used += snprintf(list + used, sizeof list - (size_t)used, " %s %s",
-                         c->tried[i].kind->info.name, accel_number_text(c->tried[i].seconds, 3).at);
+        used += snprintf(list + used, sizeof list - (size_t)used, " %s %s%s",
+                         c->known[i].kind->info.name, c->known[i].tried ? "" : "over ",
+                         accel_number_text(c->known[i].seconds, 3).at);
     accel_build_note(c->build, "auto: seconds for %s rays:%s",
                      accel_number_text(c->build->a->option[RAYS], 6).at, list);
 }
@@ -280,7 +353,7 @@ static bool choose(struct build *build, const struct accel_kind **kind)
 {
     const struct accel_kind *linear = (const struct accel_kind *)accel_kind_list[0];
     const double rays = build->a->option[RAYS], n = (double)build->a->prims.bounded.count;
-    struct chooser c = {.build = build};
+    struct chooser c = {.build = build, .hits = 0.0};
     *kind = linear;
     c.hooks = hooks_of(&c);
     weigh_primitives(&c);
@@ -290,11 +363,9 @@ static bool choose(struct build *build, const struct accel_kind **kind)
                          accel_number_text(rays, 6).at, accel_number_text(n, 6).at);
         return true;
     }
-    const bool fine = accel_sample_take(build, &c.sample) && try_kinds(&c);
-    accel_sample_free(&build->a->memory, &c.sample);
-    if (!fine)
+    if (!compare_kinds(&c))
         return false;
-    *kind = c.tried[0].kind;
+    *kind = c.known[0].kind;
     explain(&c);
     return true;
 }
