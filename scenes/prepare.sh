@@ -22,7 +22,7 @@ logs=$build/logs
 packages_build=(ca-certificates gcc g++ make cmake pkg-config libassimp-dev libjansson-dev
     libopenexr-dev libpng-dev librandom123-dev)
 packages_stock=(povray povray-includes)
-packages_fast=(libcmocka-dev locales)
+packages_fast=(libcmocka-dev locales python3-minimal)
 packages_tests=("${packages_fast[@]}" povray-examples libembree-dev gnuplot-nox libxml2-utils clang)
 
 # What the choice of auto is fitted to and judged by; the last three come by fetch.sh.
