@@ -162,6 +162,13 @@ static inline uint32_t lanes_at_most(lanes a, lanes b)
 {
     return (uint32_t)_mm256_movemask_pd(_mm256_cmp_pd(a, b, _CMP_LE_OQ));
 }
+/* Which of four ids are this one. */
+static inline uint32_t lanes_with_id(const uint32_t *ids, uint32_t id)
+{
+    const __m128i four = _mm_loadu_si128((const __m128i *)(const void *)ids);
+    return (uint32_t)_mm_movemask_ps(
+        _mm_castsi128_ps(_mm_cmpeq_epi32(four, _mm_set1_epi32((int)id))));
+}
 
 #include "wide_leaf.h"
 

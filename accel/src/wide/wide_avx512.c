@@ -142,6 +142,12 @@ static inline uint32_t lanes_at_most(lanes a, lanes b)
 {
     return _mm512_cmp_pd_mask(a, b, _CMP_LE_OQ);
 }
+/* Which of eight ids are this one. */
+static inline uint32_t lanes_with_id(const uint32_t *ids, uint32_t id)
+{
+    return _mm256_cmpeq_epi32_mask(_mm256_loadu_si256((const __m256i *)(const void *)ids),
+                                   _mm256_set1_epi32((int)id));
+}
 
 #include "wide_leaf.h"
 
