@@ -58,8 +58,9 @@ static inline bool take(struct wide_fast *f, double t, uint32_t id, const double
         return false;
     f->best = f->t = t;
     f->id = id;
-    f->u = e1[lane] / det[lane];
-    f->v = e2[lane] / det[lane];
+    f->u = e1[lane];
+    f->v = e2[lane];
+    f->weights = det[lane];
     return true;
 }
 
@@ -157,6 +158,7 @@ static inline bool take_sphere(struct wide_fast *f, const double t[2], uint32_t 
     f->best = f->t = first;
     f->id = id;
     f->u = f->v = 0.0;
+    f->weights = 1.0;
     return true;
 }
 
