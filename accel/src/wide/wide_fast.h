@@ -34,8 +34,7 @@ static inline uint32_t next_child(uint32_t *meets)
     return i;
 }
 
-/* Without branches, which compilers take for likely ones, and would be mispredicted every other
- * time. */
+/* Without branches, whatever the compiler makes of a choice of the nearer. */
 static inline void order(waiting *near, waiting *far)
 {
     const waiting differ = (*near ^ *far) & (0 - (waiting)(*far < *near));
