@@ -196,6 +196,29 @@ static void test_behind(void **state)
     }
 }
 
+/* Of a sphere that is left from its very middle neither root is farther; the sign of the 0 that
+ * tells them apart depends on the direction, and must not show. */
+static void test_middle(void **state)
+{
+    (void)state;
+    const double x[4] = {3, -2, 5, 1};
+    const accel_geometry g = {.type = ACCEL_SPHERES, .spheres = {.spheres = x, .count = 1}};
+    for (size_t i = 0; i < list_count; i++) {
+        accel *a;
+        assert_int_equal(accel_build(&a, &(accel_scene){&g, 1}, list[i].config, NULL, NULL),
+                         ACCEL_OK);
+        for (int way = 0; way < 27; way++) {
+            const double dir[3] = {way % 3 - 1, way / 3 % 3 - 1, way / 9 - 1};
+            accel_ray ray = accel_ray_from(x, dir);
+            assert_int_equal(accel_any(a, &ray, NULL), way != 13);
+            ray.skip = (accel_id){0, 0};
+            assert_false(accel_any(a, &ray, NULL));
+            assert_false(accel_closest(a, &ray, NULL, NULL));
+        }
+        accel_free(a);
+    }
+}
+
 /* ----------------------------------------------------------- skip, visitors ---- */
 
 struct hits {
@@ -589,14 +612,14 @@ static void test_counters(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_special),    cmocka_unit_test(test_work),
-        cmocka_unit_test(test_ends),       cmocka_unit_test(test_behind),
-        cmocka_unit_test(test_skip),       cmocka_unit_test(test_skip_none),
-        cmocka_unit_test(test_stop),       cmocka_unit_test(test_points),
-        cmocka_unit_test(test_point_cost), cmocka_unit_test(test_callback),
-        cmocka_unit_test(test_ignored),    cmocka_unit_test(test_lies),
-        cmocka_unit_test(test_limit),      cmocka_unit_test(test_nested),
-        cmocka_unit_test(test_counters),
+        cmocka_unit_test(test_special),   cmocka_unit_test(test_work),
+        cmocka_unit_test(test_ends),      cmocka_unit_test(test_behind),
+        cmocka_unit_test(test_middle),    cmocka_unit_test(test_skip),
+        cmocka_unit_test(test_skip_none), cmocka_unit_test(test_stop),
+        cmocka_unit_test(test_points),    cmocka_unit_test(test_point_cost),
+        cmocka_unit_test(test_callback),  cmocka_unit_test(test_ignored),
+        cmocka_unit_test(test_lies),      cmocka_unit_test(test_limit),
+        cmocka_unit_test(test_nested),    cmocka_unit_test(test_counters),
     };
     return cmocka_run_group_tests_name("queries", tests, make_list, free_list);
 }

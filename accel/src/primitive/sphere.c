@@ -15,8 +15,8 @@
  *
  * A ray that grazes: where the square of the cosine comes down to u, double tells neither whether
  * the line meets the sphere nor, below 4u, the sign of b. So where the discriminant is below
- * GRAZING r^2, both are found from the ray as given in wider precision, which is right down to
- * cosines of 2^-50, and t is as exact as any.
+ * SPHERE_GRAZING r^2, both are found from the ray as given in wider precision, which is right down
+ * to cosines of 2^-50, and t is as exact as any.
  *
  * None is met twice: where b <= 0, and tmin >= 0, the sphere has no hit. The kept root is not above
  * 0. It could become a hit only where clamping to S(P') raised it, hence where the ray is still to
@@ -36,9 +36,6 @@
 /* With the squares of all lengths between these, no product below over- or underflows. */
 #define SAFE_MIN 0x1p-400
 #define SAFE_MAX 0x1p400
-
-/* Of the square of the radius. */
-#define GRAZING 0x1p-20
 
 static double dot(const double a[3], const double b[3])
 {
@@ -89,7 +86,7 @@ static int roots(const double f[3], const double dir[3], double a, double r, boo
     for (int k = 0; k < 3; k++)
         nearest[k] = f[k] + b / a * dir[k];
     const double discriminant = r * r - dot(nearest, nearest);
-    if (farther && fabs(discriminant) < GRAZING * (r * r))
+    if (farther && fabs(discriminant) < SPHERE_GRAZING * (r * r))
         return -1;
     if (!(discriminant >= 0))
         return 0;

@@ -10,6 +10,10 @@
 
 #include "query.h"
 
+/* A ray that leaves a sphere grazes it where the discriminant is nearer to 0 than this part of the
+ * square of the radius. */
+#define SPHERE_GRAZING 0x1p-20
+
 /* Tests the sphere (centre, radius). Returns the number of roots, 0 or 2, the lower first; a line
  * that touches has two equal ones. Of a ray that leaves this sphere, 0 or 1: the one farther from
  * 0; see sphere.c. */

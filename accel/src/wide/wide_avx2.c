@@ -90,11 +90,31 @@ static inline void begins_store(const begins *b, uint32_t out[WIDE])
     _mm256_store_si256((__m256i *)(void *)(out + 8), b->half[1]);
 }
 
+/* For each set of eight, the numbers of its members, a byte each, in order. */
+/* clang-format off */
+#define MEMBER(set, i) ((uint64_t)(i) * ((set) >> (i) & 1) << 8 * __builtin_popcount((set) & ((1 << (i)) - 1)))
+#define MEMBERS(set) MEMBER(set, 1) | MEMBER(set, 2) | MEMBER(set, 3) | MEMBER(set, 4) | MEMBER(set, 5) | \
+                     MEMBER(set, 6) | MEMBER(set, 7)
+#define SETS_4(set) MEMBERS(set), MEMBERS(set + 1), MEMBERS(set + 2), MEMBERS(set + 3)
+#define SETS_16(set) SETS_4(set), SETS_4(set + 4), SETS_4(set + 8), SETS_4(set + 12)
+#define SETS_64(set) SETS_16(set), SETS_16(set + 16), SETS_16(set + 32), SETS_16(set + 48)
+static const uint64_t members[256] = {SETS_64(0), SETS_64(64), SETS_64(128), SETS_64(192)};
+/* clang-format on */
+
+/* Puts the members of a set of eight words behind each other. Writes eight. */
+static inline uint32_t *push_half(uint32_t *top, uint32_t set, const uint32_t words[8])
+{
+    const __m256i all = _mm256_load_si256((const __m256i *)(const void *)words);
+    const __m256i which =
+        _mm256_cvtepu8_epi32(_mm_loadl_epi64((const __m128i *)(const void *)&members[set]));
+    _mm256_storeu_si256((__m256i *)(void *)top, _mm256_permutevar8x32_epi32(all, which));
+    return top + __builtin_popcount(set);
+}
+
 static inline uint32_t *push_children(uint32_t *top, uint32_t meets, const struct wide_node *node)
 {
-    for (; meets != 0; meets &= meets - 1)
-        *top++ = node->child[__builtin_ctz(meets)];
-    return top;
+    top = push_half(top, meets & 0xff, node->child);
+    return push_half(top, meets >> 8, node->child + 8);
 }
 
 /* Four coordinates of a block of packed triangles: of one corner and axis, from the i-th on. */
@@ -161,6 +181,13 @@ static inline uint32_t lanes_less(lanes a, lanes b)
 static inline uint32_t lanes_at_most(lanes a, lanes b)
 {
     return (uint32_t)_mm256_movemask_pd(_mm256_cmp_pd(a, b, _CMP_LE_OQ));
+}
+/* Which of four ids are this one. */
+static inline uint32_t lanes_with_id(const uint32_t *ids, uint32_t id)
+{
+    const __m128i four = _mm_loadu_si128((const __m128i *)(const void *)ids);
+    return (uint32_t)_mm_movemask_ps(
+        _mm_castsi128_ps(_mm_cmpeq_epi32(four, _mm_set1_epi32((int)id))));
 }
 
 #include "wide_leaf.h"

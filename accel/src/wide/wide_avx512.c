@@ -142,6 +142,12 @@ static inline uint32_t lanes_at_most(lanes a, lanes b)
 {
     return _mm512_cmp_pd_mask(a, b, _CMP_LE_OQ);
 }
+/* Which of eight ids are this one. */
+static inline uint32_t lanes_with_id(const uint32_t *ids, uint32_t id)
+{
+    return _mm256_cmpeq_epi32_mask(_mm256_loadu_si256((const __m256i *)(const void *)ids),
+                                   _mm256_set1_epi32((int)id));
+}
 
 #include "wide_leaf.h"
 
@@ -169,9 +175,15 @@ struct vertices {
     __m512d low, high;
 };
 
-static inline struct vertices pool_row(const float *at, __mmask16 there)
+static inline struct vertices pool_row(const struct wide_block *b, uint32_t axis, __mmask16 there)
 {
-    const __m512 all = _mm512_maskz_loadu_ps(there, at);
+    const size_t place = axis * (size_t)b->vertices;
+    if (b->type != WIDE_POOL) {
+        const double *at = (const double *)wide_block_data(b) + place;
+        return (struct vertices){_mm512_maskz_loadu_pd((__mmask8)there, at),
+                                 _mm512_maskz_loadu_pd((__mmask8)(there >> 8), at + 8)};
+    }
+    const __m512 all = _mm512_maskz_loadu_ps(there, (const float *)wide_block_data(b) + place);
     return (struct vertices){_mm512_cvtps_pd(_mm512_castps512_ps256(all)),
                              _mm512_cvtps_pd(_mm512_extractf32x8_ps(all, 1))};
 }
@@ -183,14 +195,12 @@ static inline __m512d pick(const struct vertices *v, __m512i corner)
 
 static inline struct corners load_pool(const struct leaf_ray *l, const struct wide_block *b)
 {
-    const float *at = wide_block_data(b);
-    const uint32_t n = b->vertices;
-    const uint8_t *corner = (const uint8_t *)(at + 3 * n);
+    const uint32_t size = b->type == WIDE_POOL ? sizeof(float) : sizeof(double), n = b->vertices;
+    const uint8_t *corner = (const uint8_t *)wide_block_data(b) + 3 * size * n;
     const __mmask16 there = (__mmask16)((1u << n) - 1);
     struct corners low, high, c;
-    const struct vertices px = pool_row(at + l->axis[0] * n, there),
-                          py = pool_row(at + l->axis[1] * n, there),
-                          pz = pool_row(at + l->axis[2] * n, there);
+    const struct vertices px = pool_row(b, l->axis[0], there), py = pool_row(b, l->axis[1], there),
+                          pz = pool_row(b, l->axis[2], there);
     shear_corner(l, px.low, py.low, pz.low, &low, 0);
     shear_corner(l, px.high, py.high, pz.high, &high, 0);
     const struct vertices x = {low.x[0], high.x[0]}, y = {low.y[0], high.y[0]},
@@ -213,7 +223,7 @@ __attribute__((always_inline)) static inline bool leaf_test(struct wide_fast *f,
         const struct spheres s = {{row(b, 0), row(b, 1), row(b, 2)}, row(b, 3)};
         return test_spheres(f, b, &s, 0, any);
     }
-    const struct corners c = b->type == WIDE_POOL ? load_pool(l, b) : load_packed(l, b);
+    const struct corners c = b->type <= WIDE_POOL_DOUBLES ? load_pool(l, b) : load_packed(l, b);
     return test_triangles(f, b, &c, 0, any);
 }
 

@@ -100,9 +100,39 @@ static void bound(struct wide_block *b, const double *v)
         b->far_origin = far > 0x1p-120 ? (float)far : -1.0f;
 }
 
+static size_t coordinate_size(bool floats)
+{
+    return floats ? sizeof(float) : sizeof(double);
+}
+
+static void put_coordinate(unsigned char *at, double x, bool floats)
+{
+    const float single = floats ? (float)x : 0.0f;
+    memcpy(at, floats ? (const void *)&single : (const void *)&x, coordinate_size(floats));
+}
+
+/* The first of the triangles as a block. Returns how many. */
+static uint32_t emit_packed(struct emitter *e, const uint32_t *ids, uint32_t count, bool floats)
+{
+    struct wide_block *b = begin_block(e, floats ? WIDE_FLOATS : WIDE_DOUBLES);
+    unsigned char *at = (unsigned char *)(b + 1);
+    const uint32_t n = count < WIDE_BLOCK ? count : WIDE_BLOCK;
+    const size_t size = coordinate_size(floats);
+    b->count = (uint8_t)n;
+    for (uint32_t i = 0; i < n; i++) {
+        const double *v = triangle(e, ids[i]);
+        bound(b, v);
+        for (uint32_t c = 0; c < 9; c++)
+            put_coordinate(at + size * (c * n + i), v[c], floats);
+    }
+    memcpy(at + 9 * size * n, ids, n * sizeof *ids);
+    end_block(e, b, (9 * size + sizeof *ids) * n);
+    return n;
+}
+
 /* Corners of a block's triangles, each vertex once. */
 struct vertex_pool {
-    float at[POOL][3];
+    double at[POOL][3];
     uint32_t count;
     uint8_t corner[3][WIDE_BLOCK];
 };
@@ -110,18 +140,14 @@ struct vertex_pool {
 /* Adds a triangle; false: the pool is full. */
 static bool pool_add(struct vertex_pool *p, const double *v, uint32_t triangle)
 {
-    const uint32_t before = p->count;
     for (int i = 0; i < 3; i++) {
-        const float at[3] = {(float)v[3 * i], (float)v[3 * i + 1], (float)v[3 * i + 2]};
         uint32_t j = 0;
-        while (j < p->count && memcmp(p->at[j], at, sizeof at) != 0)
+        while (j < p->count && memcmp(p->at[j], v + 3 * i, sizeof p->at[j]) != 0)
             j++;
-        if (j == POOL) {
-            p->count = before;
+        if (j == POOL)
             return false;
-        }
         if (j == p->count)
-            memcpy(p->at[p->count++], at, sizeof at);
+            memcpy(p->at[p->count++], v + 3 * i, sizeof p->at[j]);
         p->corner[i][triangle] = (uint8_t)j;
     }
     return true;
@@ -131,50 +157,40 @@ static void put_pool(struct emitter *e, struct wide_block *b, const struct verte
                      const uint32_t *ids)
 {
     unsigned char *at = (unsigned char *)(b + 1);
+    const size_t size = coordinate_size(b->type == WIDE_POOL);
     b->vertices = (uint8_t)p->count;
     for (uint32_t k = 0; k < 3; k++)
-        for (uint32_t j = 0; j < p->count; j++)
-            memcpy(at + sizeof(float) * (k * p->count + j), &p->at[j][k], sizeof(float));
-    at += 12 * p->count;
+        for (uint32_t j = 0; j < p->count; j++, at += size)
+            put_coordinate(at, p->at[j][k], b->type == WIDE_POOL);
     memcpy(at, p->corner, sizeof p->corner);
     memcpy(at + sizeof p->corner, ids, b->count * sizeof *ids);
-    end_block(e, b, 12 * p->count + sizeof p->corner + b->count * sizeof *ids);
+    end_block(e, b, 3 * size * p->count + sizeof p->corner + b->count * sizeof *ids);
 }
 
-/* As many of the triangles as have room in one block with a pool. Returns how many. */
-static uint32_t emit_pool(struct emitter *e, const uint32_t *ids, uint32_t count)
+/* Do doubles take less memory packed? Of floats pools never take much more, and another type of
+ * block is a branch that is mispredicted. */
+static bool better_packed(const struct vertex_pool *p, uint32_t count, bool floats)
+{
+    const size_t size = sizeof(double);
+    return !floats && 3 * size * p->count + sizeof p->corner > 9 * size * count;
+}
+
+/* The same with each vertex once; packed, where those are too many. */
+static uint32_t emit_pool(struct emitter *e, const uint32_t *ids, uint32_t count, bool floats)
 {
     struct vertex_pool p = {.count = 0, .corner = {{0}}};
-    struct wide_block *b = begin_block(e, WIDE_POOL);
-    while (b->count < count && b->count < WIDE_BLOCK) {
-        const double *v = triangle(e, ids[b->count]);
-        if (!pool_add(&p, v, b->count))
-            break;
-        bound(b, v);
-        b->count++;
-    }
-    put_pool(e, b, &p, ids);
-    return b->count;
-}
-
-static uint32_t emit_packed(struct emitter *e, const uint32_t *ids, uint32_t count, bool floats)
-{
-    struct wide_block *b = begin_block(e, floats ? WIDE_FLOATS : WIDE_DOUBLES);
-    unsigned char *at = (unsigned char *)(b + 1);
+    struct wide_block *b = begin_block(e, floats ? WIDE_POOL : WIDE_POOL_DOUBLES);
     const uint32_t n = count < WIDE_BLOCK ? count : WIDE_BLOCK;
-    const size_t size = floats ? sizeof(float) : sizeof(double);
+    bool fits = true;
     b->count = (uint8_t)n;
-    for (uint32_t i = 0; i < n; i++) {
+    for (uint32_t i = 0; i < n && fits; i++) {
         const double *v = triangle(e, ids[i]);
+        fits = pool_add(&p, v, i);
         bound(b, v);
-        for (uint32_t c = 0; c < 9; c++) {
-            const float single = (float)v[c];
-            memcpy(at + size * (c * n + i), floats ? (const void *)&single : (const void *)&v[c],
-                   size);
-        }
     }
-    memcpy(at + 9 * size * n, ids, n * sizeof *ids);
-    end_block(e, b, (9 * size + sizeof *ids) * n);
+    if (!fits || better_packed(&p, n, floats))
+        return emit_packed(e, ids, count, floats);
+    put_pool(e, b, &p, ids);
     return n;
 }
 
@@ -226,9 +242,8 @@ static uint32_t emit_block(struct emitter *e, const uint32_t *ids, uint32_t coun
         return emit_list(e, ids, count);
     if (type == WIDE_SPHERES)
         return emit_spheres(e, ids, count);
-    if (type == WIDE_FLOATS && e->rule.pool)
-        return emit_pool(e, ids, count);
-    return emit_packed(e, ids, count, type == WIDE_FLOATS);
+    return e->rule.pool ? emit_pool(e, ids, count, type == WIDE_FLOATS)
+                        : emit_packed(e, ids, count, type == WIDE_FLOATS);
 }
 
 static enum wide_type type_of(const struct emitter *e, uint32_t id)

@@ -34,6 +34,14 @@ static inline uint32_t next_child(uint32_t *meets)
     return i;
 }
 
+/* Without branches, whatever the compiler makes of a choice of the nearer. */
+static inline void order(waiting *near, waiting *far)
+{
+    const waiting differ = (*near ^ *far) & (0 - (waiting)(*far < *near));
+    *near ^= differ;
+    *far ^= differ;
+}
+
 /* Sorts what stands from `bottom`, farthest first. */
 static inline void sort_waiting(waiting *bottom, const waiting *top)
 {
@@ -66,27 +74,28 @@ __attribute__((always_inline)) static inline uint32_t descend(const struct wide 
     if (meets == 0)
         return node->child[i];
     begins_store(where, begin);
-    const waiting a = waiting_of(begin[i], node->child[i]);
+    waiting near = waiting_of(begin[i], node->child[i]);
     i = next_child(&meets);
     expect(w, node->child[i]);
-    const waiting b = waiting_of(begin[i], node->child[i]);
-    const waiting near = a < b ? a : b, far = a < b ? b : a;
+    waiting far = waiting_of(begin[i], node->child[i]);
+    order(&near, &far);
     if (meets == 0) {
         *(*top)++ = far;
         return (uint32_t)near;
     }
     i = next_child(&meets);
     expect(w, node->child[i]);
-    const waiting c = waiting_of(begin[i], node->child[i]);
-    const waiting farthest = far > c ? far : c, rest = far > c ? c : far;
+    waiting farthest = waiting_of(begin[i], node->child[i]);
+    order(&far, &farthest);
+    order(&near, &far);
     waiting *bottom = *top;
     bottom[0] = farthest;
-    bottom[1] = near > rest ? near : rest;
-    bottom[2] = near > rest ? rest : near;
+    bottom[1] = far;
     if (meets == 0) {
         *top += 2;
-        return (uint32_t)bottom[2];
+        return (uint32_t)near;
     }
+    bottom[2] = near;
     *top += 3;
     while (meets != 0) {
         i = next_child(&meets);
@@ -109,6 +118,8 @@ static inline bool begin_fast(struct wide_fast *f, const accel *a, const struct 
     f->tmax = ray->tmax;
     f->skip = primitives_id(&a->prims, ray->skip);
     f->best = f->t = (double)INFINITY;
+    f->u = f->v = 0.0;
+    f->weights = 1.0;
     f->id = ACCEL_NONE;
     f->counters = counters;
     f->prepared = f->comes_to_leaves = false;
@@ -231,7 +242,7 @@ static enum wide_answer closest(const accel *a, const struct wide *w, const acce
     end_fast(&f);
     if (answer == WIDE_HIT && hit) {
         const accel_id name = primitives_name(&a->prims, f.id);
-        *hit = (accel_hit){f.t, f.u, f.v, name.geom, name.prim};
+        *hit = (accel_hit){f.t, f.u / f.weights, f.v / f.weights, name.geom, name.prim};
     }
     return answer;
 }

@@ -34,7 +34,7 @@ static struct query *prepare(struct wide_fast *f)
     q->count = f->id != ACCEL_NONE;
     q->limit = f->best;
     q->end = f->id;
-    f->found = (struct found){f->best, f->t, f->u, f->v, f->id};
+    f->found = (struct found){f->best, f->t, f->u / f->weights, f->v / f->weights, f->id};
     return q;
 }
 
@@ -48,6 +48,7 @@ static bool take_over(struct wide_fast *f)
     f->t = found->t;
     f->u = found->u;
     f->v = found->v;
+    f->weights = 1.0;
     f->id = found->id;
     return true;
 }

@@ -44,7 +44,7 @@ struct wide_fast {
     uint32_t skip;        /* id, or ACCEL_NONE */
     double best;          /* key of the best hit so far, infinity without one */
     double t;             /* of it: the key, but for hits that a host reports */
-    double u, v;          /* its weights */
+    double u, v, weights; /* its weights are u and v divided by their sum with the third one */
     uint32_t id;          /* its primitive; ACCEL_NONE without one */
     bool comes_to_leaves; /* `leaf` is made */
     bool prepared;        /* q is */

@@ -29,6 +29,7 @@
  * axis with d = 0 asks the same of o_x itself. Underflow, or flushing to zero, adds at most 2^-1022
  * to any term, and by 2. C is at least 2^-455.
  */
+#include "../primitive/sphere.h"
 
 /* Which lanes hold something of a block, from the `from`-th on. */
 static inline uint32_t lanes_there(const struct wide_block *b, uint32_t from)
@@ -53,12 +54,13 @@ static inline void shear_corner(const struct leaf_ray *l, lanes px, lanes py, la
 static inline bool take(struct wide_fast *f, double t, uint32_t id, const double *e1,
                         const double *e2, const double *det, uint32_t lane)
 {
-    if (id == f->skip || t > f->best || (t == f->best && id >= f->id))
+    if (t > f->best || (t == f->best && id >= f->id))
         return false;
     f->best = f->t = t;
     f->id = id;
-    f->u = e1[lane] / det[lane];
-    f->v = e2[lane] / det[lane];
+    f->u = e1[lane];
+    f->v = e2[lane];
+    f->weights = det[lane];
     return true;
 }
 
@@ -75,7 +77,8 @@ __attribute__((always_inline)) static inline bool test_triangles(struct wide_fas
     const lanes e2 = lanes_sub(lanes_mul(x[1], y[0]), lanes_mul(y[1], x[0]));
     const lanes least = lanes_min(lanes_min(e0, e1), e2), most = lanes_max(lanes_max(e0, e1), e2);
     const lanes zero = lanes_all(0.0);
-    const uint32_t there = lanes_there(b, from);
+    const uint32_t *ids = wide_block_ids(b) + from;
+    const uint32_t there = lanes_there(b, from) & ~lanes_with_id(ids, f->skip);
     uint32_t hit = (lanes_at_most(zero, least) | lanes_at_most(most, zero)) & there;
     if (__builtin_expect(hit == 0, 1))
         return false;
@@ -99,7 +102,6 @@ __attribute__((always_inline)) static inline bool test_triangles(struct wide_fas
     bool better = false;
     if (hit) {
         _Alignas(64) double ts[LANES], e1s[LANES], e2s[LANES], dets[LANES];
-        const uint32_t *ids = wide_block_ids(b) + from;
         lanes_store(ts, t);
         lanes_store(e1s, e1);
         lanes_store(e2s, e2);
@@ -138,29 +140,25 @@ __attribute__((always_inline)) static inline bool test_triangles(struct wide_fas
  *   2 |f|, 4 |f| + 3 r for b and s, 3 |f| + 6 r as above: in all less than 386 C. Its square over
  *   2 r is at most 4 C by 3.
  * P' begins 512 C before the sphere, but for 3 C by which the box is rounded; what the slabs are
- * rounded by is less than the growth of S. */
+ * rounded by is less than the growth of S.
+ *
+ * Of the sphere that the ray leaves only second counts, if b > 0; else that is at most 0, so at
+ * most tmin, and no hit: the rule of sphere.c, but where the ray grazes it. */
 struct spheres {
     lanes centre[3], radius;
 };
 
-/* The lane with the sphere that the ray leaves, which has a rule of its own: see sphere.c. */
-static inline uint32_t lanes_left(const struct wide_fast *f, const uint32_t *ids, uint32_t there)
-{
-    uint32_t left = 0;
-    for (uint32_t i = 0; f->skip != ACCEL_NONE && there >> i != 0; i++)
-        left |= (uint32_t)(ids[i] == f->skip) << i;
-    return left;
-}
-
 static inline bool take_sphere(struct wide_fast *f, const double t[2], uint32_t id)
 {
-    const double first = f->tmin < t[0] && t[0] < f->tmax ? t[0] : t[1];
+    const double near = t[0] < t[1] ? t[0] : t[1], far = t[0] < t[1] ? t[1] : t[0];
+    const double first = f->tmin < near && near < f->tmax ? near : far;
     if (!(f->tmin < first && first < f->tmax) || first > f->best ||
         (first == f->best && id >= f->id))
         return false;
     f->best = f->t = first;
     f->id = id;
     f->u = f->v = 0.0;
+    f->weights = 1.0;
     return true;
 }
 
@@ -187,12 +185,14 @@ __attribute__((always_inline)) static inline bool test_spheres(struct wide_fast 
     const lanes discriminant = lanes_sub(
         rr, lanes_add(lanes_add(lanes_mul(n0, n0), lanes_mul(n1, n1)), lanes_mul(n2, n2)));
     const uint32_t *ids = wide_block_ids(b) + from;
-    const uint32_t all = lanes_there(b, from), left = lanes_left(f, ids, all), there = all & ~left;
+    const uint32_t there = lanes_there(b, from), left = lanes_with_id(ids, f->skip) & there;
     const uint32_t safe =
         f->leaf.safe ? lanes_less(lanes_all(0x1p-400), sum) & lanes_less(sum, lanes_all(0x1p400))
                      : 0;
-    uint32_t hit = lanes_at_most(lanes_all(0.0), discriminant) & safe & there;
-    uint32_t slow = left | (there & ~safe);
+    const uint32_t grazes =
+        left & lanes_less(lanes_abs(discriminant), lanes_mul(lanes_all(SPHERE_GRAZING), rr));
+    uint32_t slow = (there & ~safe) | grazes;
+    uint32_t hit = lanes_at_most(lanes_all(0.0), discriminant) & there & ~slow;
     if (__builtin_expect((hit | slow) == 0, 1))
         return false;
     const lanes root =
@@ -201,14 +201,16 @@ __attribute__((always_inline)) static inline bool test_spheres(struct wide_fast 
     const uint32_t large =
         lanes_at_most(lanes_mul(lanes_mul(lanes_all(0x1p-44), rr), a), lanes_mul(root, root));
     const uint32_t decided = f->leaf.far <= (double)b->far_origin ? large : 0;
-    _Alignas(64) double first[LANES], second[LANES];
+    const uint32_t ahead = ~left | lanes_less(lanes_all(0.0), back);
+    _Alignas(64) double ones[LANES], others[LANES];
     bool better = false;
     slow |= hit & ~decided;
-    lanes_store(first, lanes_min(one, other));
-    lanes_store(second, lanes_max(one, other));
-    for (hit &= decided; hit && !(any && better); hit &= hit - 1) {
+    lanes_store(ones, one);
+    lanes_store(others, other);
+    for (hit &= decided & ahead; hit && !(any && better); hit &= hit - 1) {
         const uint32_t i = (uint32_t)__builtin_ctz(hit);
-        better |= take_sphere(f, (const double[2]){first[i], second[i]}, ids[i]);
+        const double t[2] = {left >> i & 1 ? others[i] : ones[i], others[i]};
+        better |= take_sphere(f, t, ids[i]);
     }
     for (; slow != 0 && !(any && better); slow &= slow - 1)
         better |= accel_wide_test_slowly(f, b, from + (uint32_t)__builtin_ctz(slow));

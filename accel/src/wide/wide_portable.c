@@ -122,6 +122,11 @@ static inline uint32_t lanes_at_most(lanes a, lanes b)
 {
     return (uint32_t)(a[0] <= b[0]) | (uint32_t)(a[1] <= b[1]) << 1;
 }
+/* Which of two ids are this one. */
+static inline uint32_t lanes_with_id(const uint32_t *ids, uint32_t id)
+{
+    return (uint32_t)(ids[0] == id) | (uint32_t)(ids[1] == id) << 1;
+}
 
 #include "wide_leaf.h"
 

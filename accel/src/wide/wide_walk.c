@@ -18,19 +18,14 @@
 void accel_wide_vertices(const struct wide_block *b, unsigned i, double out[9])
 {
     const void *data = wide_block_data(b);
-    const unsigned n = b->count;
-    if (b->type == WIDE_DOUBLES) {
-        for (unsigned c = 0; c < 9; c++)
-            out[c] = ((const double *)data)[c * n + i];
-        return;
-    }
-    const float *at = data;
-    const uint8_t *corner = (const uint8_t *)(at + 3 * b->vertices);
+    const bool pool = b->type <= WIDE_POOL_DOUBLES;
+    const bool doubles = b->type == WIDE_POOL_DOUBLES || b->type == WIDE_DOUBLES;
+    const size_t size = doubles ? sizeof(double) : sizeof(float);
+    const uint8_t *corner = (const uint8_t *)data + 3 * size * b->vertices;
     for (unsigned c = 0; c < 9; c++) {
-        const unsigned place = b->type == WIDE_FLOATS
-                                   ? c * n + i
-                                   : c % 3 * b->vertices + corner[c / 3 * WIDE_BLOCK + i];
-        out[c] = (double)at[place];
+        const unsigned place =
+            pool ? c % 3 * b->vertices + corner[c / 3 * WIDE_BLOCK + i] : c * b->count + i;
+        out[c] = doubles ? ((const double *)data)[place] : (double)((const float *)data)[place];
     }
 }
 
