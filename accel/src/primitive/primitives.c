@@ -79,7 +79,7 @@ static enum sort copy_object(const accel_objects *o, uint32_t i, accel_box *box)
     return in_range(box->lo, 3) && in_range(box->hi, 3) ? BOUNDED : UNBOUNDED;
 }
 
-static uint32_t geometry_size(const accel_geometry *g)
+uint32_t accel_primitives_in(const accel_geometry *g)
 {
     return g->type == ACCEL_TRIANGLES ? g->triangles.count
            : g->type == ACCEL_SPHERES ? g->spheres.count
@@ -130,7 +130,7 @@ static bool check(struct build *build, const accel_scene *scene)
                             g, wrong);
             return false;
         }
-        total += geometry_size(&scene->geometries[g]);
+        total += accel_primitives_in(&scene->geometries[g]);
     }
     if (total >= too_many) {
         accel_error_set(build->error, ACCEL_TOO_LARGE,
@@ -192,7 +192,7 @@ static bool copy_header(struct build *build, const accel_geometry *from, uint32_
 {
     g->type = from->type;
     g->first = first;
-    g->count = geometry_size(from);
+    g->count = accel_primitives_in(from);
     g->order = ACCEL_ORDER_KEY;
     if (from->type == ACCEL_OBJECTS) {
         g->order = from->objects.order;
@@ -291,7 +291,7 @@ static uint32_t scene_size(const accel_scene *scene)
 {
     uint32_t total = 0;
     for (uint32_t g = 0; g < scene->count; g++)
-        total += geometry_size(&scene->geometries[g]);
+        total += accel_primitives_in(&scene->geometries[g]);
     return total;
 }
 
@@ -329,6 +329,28 @@ static void describe(struct build *build, const struct primitives *p)
             build, 0, 0,
             "only triangles: no callback path; leaves are tested two by two (saves rays' "
             "time only)");
+}
+
+bool accel_primitives_check(struct build *build, const accel_scene *scene, uint32_t *count)
+{
+    if (!check(build, scene))
+        return false;
+    for (uint32_t g = 0; g < scene->count; g++)
+        if (scene->geometries[g].type == ACCEL_TRIANGLES &&
+            !check_indices(build, g, &scene->geometries[g].triangles))
+            return false;
+    *count = scene_size(scene);
+    return true;
+}
+
+bool accel_primitives_bounded(const accel_geometry *from, uint32_t i, accel_box *box)
+{
+    double copied[9];
+    if (from->type == ACCEL_TRIANGLES)
+        return copy_triangle(&from->triangles, i, copied, box) == BOUNDED;
+    if (from->type == ACCEL_SPHERES)
+        return copy_sphere(&from->spheres, i, copied, box) == BOUNDED;
+    return copy_object(&from->objects, i, box) == BOUNDED;
 }
 
 bool accel_primitives_copy(struct build *build, struct primitives *p, const accel_scene *scene)

@@ -56,6 +56,16 @@ struct primitives {
 /* Copies and checks the scene, filling the counts in build->info. False: see build->error. */
 bool accel_primitives_copy(struct build *build, struct primitives *p, const accel_scene *scene);
 
+/* What accel_primitives_copy checks before it allocates anything for the primitives: arrays and
+ * indices of the whole scene, and how many primitives there are. False: see build->error. */
+bool accel_primitives_check(struct build *build, const accel_scene *scene, uint32_t *count);
+
+/* How many primitives a geometry has. */
+uint32_t accel_primitives_in(const accel_geometry *geometry);
+
+/* The box of one of its primitives, not padded. False if it is not bounded, or left out. */
+bool accel_primitives_bounded(const accel_geometry *geometry, uint32_t i, accel_box *box);
+
 /* Where there are only bounded triangles, and the kind keeps their vertices: frees vertices, boxes
  * and the list of ids (not its count), for good. */
 void accel_primitives_leave(struct memory *m, struct primitives *p);
