@@ -91,6 +91,50 @@ static void test_limits_of_large(void **state)
     scene_free(&s);
 }
 
+/* A build of a mesh of floats holds at most 300 bytes a triangle: 72 of vertices, 32 and 112 of the
+ * binary tree, and the layout's. Boxes that are kept to the end, or room for doubles, are too much.
+ */
+static void test_peak(void **state)
+{
+    (void)state;
+    enum { SIDE = 120, TRIANGLES = 2 * SIDE * SIDE };
+    static const char *const kinds[] = {"bvh", "octree", "hoo"};
+    float(*xyz)[3] = malloc((SIDE + 1) * (SIDE + 1) * sizeof *xyz);
+    uint32_t(*abc)[3] = malloc(TRIANGLES * sizeof *abc);
+    for (uint32_t i = 0; i <= SIDE; i++)
+        for (uint32_t j = 0; j <= SIDE; j++)
+            for (int k = 0; k < 3; k++)
+                xyz[i * (SIDE + 1) + j][k] = k == 0   ? (float)i
+                                             : k == 1 ? (float)j
+                                                      : sinf((float)(i * j));
+    for (uint32_t i = 0; i < TRIANGLES; i++) {
+        const uint32_t at = i / 2 / SIDE * (SIDE + 1) + i / 2 % SIDE, side = SIDE + 1;
+        abc[i][0] = i % 2 ? at + side + 1 : at;
+        abc[i][1] = at + 1;
+        abc[i][2] = at + side;
+    }
+    const accel_geometry g = {.type = ACCEL_TRIANGLES,
+                              .triangles = {.vertices = xyz,
+                                            .vertices_are_float = true,
+                                            .vertex_count = (SIDE + 1) * (SIDE + 1),
+                                            .indices = &abc[0][0],
+                                            .count = TRIANGLES}};
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+        accel *a;
+        accel_info info;
+        if (!kind_is_there(kinds[i]))
+            continue;
+        assert_int_equal(accel_build(&a, &(accel_scene){&g, 1}, kinds[i], NULL, NULL), ACCEL_OK);
+        accel_describe(a, &info);
+        accel_free(a);
+        if (info.peak_bytes > 300 * TRIANGLES)
+            fail_msg("%s: %llu bytes a triangle", kinds[i],
+                     (unsigned long long)info.peak_bytes / TRIANGLES);
+    }
+    free(xyz);
+    free(abc);
+}
+
 /* -------------------------------------------------------------------------- estimates ---- */
 
 /* What the header says that it allocates at most, beside a small scene's structure. */
@@ -240,9 +284,10 @@ static void test_no_memory(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_limits), cmocka_unit_test(test_limits_of_large),
-        cmocka_unit_test(test_exact),  cmocka_unit_test(test_large),
-        cmocka_unit_test(test_faults), cmocka_unit_test(test_no_memory),
+        cmocka_unit_test(test_limits),    cmocka_unit_test(test_limits_of_large),
+        cmocka_unit_test(test_peak),      cmocka_unit_test(test_exact),
+        cmocka_unit_test(test_large),     cmocka_unit_test(test_faults),
+        cmocka_unit_test(test_no_memory),
     };
     return cmocka_run_group_tests_name("memory", tests, NULL, NULL);
 }

@@ -255,6 +255,14 @@ static bool enter(struct build *build, struct primitives *p, uint32_t id, enum s
     return true;
 }
 
+static bool are_floats(const double *x, size_t count)
+{
+    bool all = true;
+    for (size_t i = 0; i < count; i++)
+        all &= (double)(float)x[i] == x[i];
+    return all;
+}
+
 static bool copy_geometry(struct build *build, struct primitives *p, const accel_geometry *from,
                           uint32_t number)
 {
@@ -265,6 +273,8 @@ static bool copy_geometry(struct build *build, struct primitives *p, const accel
         if (p->geometry_of)
             p->geometry_of[id] = number;
         const enum sort sort = copy_primitive(from, g, i, &p->box[id]);
+        p->only_floats =
+            p->only_floats && (sort != BOUNDED || are_floats(g->data + words * i, words));
         if (sort == BOUNDED && words > 0)
             p->data_seal += seal_primitive(id, g->data + words * i, words);
         if (!enter(build, p, id, sort))
@@ -373,7 +383,7 @@ bool accel_primitives_copy(struct build *build, struct primitives *p, const acce
     p->bounds = box_empty();
     p->test_cost = mean_cost(p);
     p->triangles = has_triangles(p);
-    p->only_triangles = only_triangles(p);
+    p->only_triangles = p->only_floats = only_triangles(p);
     p->by_key = by_key(p);
     if (total == 0)
         return true;
@@ -399,12 +409,18 @@ void accel_primitives_leave(struct memory *m, struct primitives *p)
 {
     for (uint32_t g = 0; g < p->geometry_count; g++)
         free_data(m, &p->geometry[g]);
+    p->left = true;
+}
+
+size_t accel_primitives_leave_boxes(struct memory *m, struct primitives *p)
+{
+    const size_t before = m->bytes;
     accel_memory_resize(m, p->box, p->count * sizeof *p->box, 0);
     accel_memory_resize(m, p->bounded.at, p->bounded.capacity * sizeof *p->bounded.at, 0);
-    p->left = true;
     p->box = NULL;
     p->bounded.at = NULL;
     p->bounded.capacity = 0;
+    return before - m->bytes;
 }
 
 void accel_primitives_free(struct memory *m, struct primitives *p)
