@@ -374,12 +374,12 @@ typedef struct accel_size {
  *
  * Of up to 32,768 primitives that is found by building it, and exact. Of more, 16 parts are built,
  * each the 2,048 primitives around one that is drawn, and what a primitive takes in them is taken
- * to be what each takes; what that is expected to be wrong by is added. So on all meshes and scenes
- * of the tests `bytes` is not below what is used, and at most 10 % above it; for grid and hug, whose
- * cells lie over the whole, up to 25 % above, for hug up to 10 % below. `peak_bytes` is as good for
- * the wide forms, and a guess for the others, whose arrays grow by half. That is no proof: where a
- * few primitives are unlike all others, draws may miss them. What holds in any case is memory_limit.
- * Of auto the largest kind is told that it chooses among.
+ * to be what each takes; what that is expected to be wrong by is added. So on all meshes and
+ * scenes of the tests `bytes` is not below what is used, and at most 10 % above it; for grid and
+ * hug, whose cells lie over the whole, up to 25 % above, for hug up to 10 % below. `peak_bytes` is
+ * as good for the wide forms, and a guess for the others, whose arrays grow by half. That is no
+ * proof: where a few primitives are unlike all others, draws may miss them. What holds in any case
+ * is memory_limit. Of auto the largest kind is told that it chooses among.
  *
  * Takes two passes over the scene and some tens of milliseconds; allocates up to 24 MB by
  * hooks->resize, and holds nothing when it returns. hooks, the errors and *error are those of
