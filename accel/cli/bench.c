@@ -21,6 +21,7 @@ enum {
     FLAG_REPEATS,
     FLAG_JUDGED,
     FLAG_PILOT,
+    FLAG_BATCH,
     FLAG_PEERS,
     FLAG_CSV
 };
@@ -37,6 +38,8 @@ static const struct flag flags[] = {
                      "second, but 200 at least)"},
     [FLAG_PILOT] = {"pilot", 0, "N",
                     "rays of each kind that auto may try before it chooses (default: 64)"},
+    [FLAG_BATCH] = {"batch", 0, NULL,
+                    "each structure a second time, asked by accel_closest_n and accel_any_n"},
     [FLAG_PEERS] = {"peers", 0, NULL, "Embree as well: medium and high, fast and robust"},
     [FLAG_CSV] = {"csv", 0, "[FILE.csv]",
                   "all figures as well; without a file, or as -, on standard output instead\n"
@@ -55,7 +58,7 @@ typedef struct request {
     bool sets[SETS];
     uint64_t count, repeats, pilot;
     uint64_t judged; /* 0: as many as is quick */
-    bool peers, quiet;
+    bool batch, peers, quiet;
     bool csv;             /* figures are asked for */
     const char *csv_name; /* where; NULL: on standard output */
     struct bench_output output;
@@ -77,6 +80,32 @@ static size_t trace_ours(const struct bench_contender *c, const struct ray_set *
 static void end_ours(struct bench_contender *c)
 {
     accel_free(c->state);
+}
+
+static size_t trace_batch(const struct bench_contender *c, const struct ray_set *set)
+{
+    struct batch_answers answers;
+    size_t found = 0;
+    for (size_t i = 0; i < set->count; i += BATCH) {
+        found += ask_batch(c->state, set, i, NULL, &answers);
+    }
+    return found;
+}
+
+static void end_nothing(struct bench_contender *c)
+{
+    (void)c;
+}
+
+/* The same structure, asked in another way. */
+static struct bench_contender in_batches(const struct bench_contender *c)
+{
+    struct bench_contender batch = *c;
+    batch.batch = true;
+    batch.trace = trace_batch;
+    batch.end = end_nothing;
+    snprintf(batch.name, sizeof batch.name, "%.55s, batch", c->name);
+    return batch;
 }
 
 /* Every so many-th ray of each kind, for auto. */
@@ -156,15 +185,19 @@ static void make_peers(struct bench *b)
 static bool make_contenders(struct bench *b, const request *r, struct progress *progress)
 {
     accel_hooks hooks = {.user = progress, .progress = progress_build};
-    b->at = calloc(r->configs.count + MOST_PEERS, sizeof *b->at);
+    b->at = calloc(2 * r->configs.count + MOST_PEERS, sizeof *b->at);
     bool fine = b->at != NULL && make_pilot(b, r->pilot, &hooks);
     if (!fine) {
         complain(r->command, "no memory for %zu contenders", r->configs.count);
     }
     for (size_t i = 0; i < r->configs.count && fine; i++) {
         progress->what = r->configs.items[i];
-        fine = make_ours(&b->at[i], r->configs.items[i], b, &hooks, r);
+        fine = make_ours(&b->at[b->count], r->configs.items[i], b, &hooks, r);
         b->count += fine;
+        if (fine && r->batch) {
+            b->at[b->count] = in_batches(&b->at[b->count - 1]);
+            b->count++;
+        }
     }
     progress->what = NULL;
     progress_clear(progress);
@@ -319,6 +352,9 @@ static bool take(struct arguments *a, int flag, void *user)
         return whole_argument(a, flag, 1, 100000000, &r->judged);
     case FLAG_PILOT:
         return whole_argument(a, flag, 0, 1000000, &r->pilot);
+    case FLAG_BATCH:
+        r->batch = true;
+        return true;
     case FLAG_PEERS:
         r->peers = true;
         return true;

@@ -221,8 +221,9 @@ const struct command command_check = {
         "Prints rays and mismatches of each structure and exits with 1 where there is any, with a\n"
         "command that replays the ray. accel_closest (t, u, v, ids) and accel_any are compared "
         "for\n"
-        "each ray, accel_all (256 hits) and accel_point for one in 16. The invariants of each\n"
-        "structure are validated as well. Families of rays, in turn: primary, lines, inside,\n"
+        "each ray, alone and in batches (accel_closest_n, accel_any_n), accel_all (256 hits) and\n"
+        "accel_point for one in 16. The invariants of each structure are validated as well.\n"
+        "Families of rays, in turn: primary, lines, inside,\n"
         "bounce, vertex, edge, axis, grazing, far, scaled, interval, odd.",
     .flags = flags,
     .flag_count = sizeof flags / sizeof flags[0],

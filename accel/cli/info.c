@@ -51,6 +51,19 @@ static void print_structure(const accel_info *info)
     printf("; %" PRIu64 " at most during the build\n", info->peak_bytes);
 }
 
+static double percent_above(uint64_t told, uint64_t is)
+{
+    return is > 0 ? 100.0 * ((double)told / (double)is - 1.0) : 0.0;
+}
+
+static void print_estimate(const accel_info *info, const accel_size *size)
+{
+    printf("  estimated     %" PRIu64 " bytes (%+.1f %%), %" PRIu64 " at most (%+.1f %%)%s\n",
+           size->bytes, percent_above(size->bytes, info->bytes), size->peak_bytes,
+           percent_above(size->peak_bytes, info->peak_bytes),
+           size->exact ? ", by building it" : "");
+}
+
 static void print_time(const accel_info *info)
 {
     printf("  build time    %.6f s", info->seconds);
@@ -67,13 +80,14 @@ static void print_time(const accel_info *info)
     }
 }
 
-static void print_info(const accel *a)
+static void print_info(const accel *a, const accel_size *size)
 {
     accel_info info;
     accel_describe(a, &info);
     printf("%s\n", info.config);
     print_skipped(&info);
     print_structure(&info);
+    print_estimate(&info, size);
     print_time(&info);
 }
 
@@ -103,6 +117,8 @@ static int describe(const struct command *command, const char *scene, const stru
     }
     int code = EXIT_FINE;
     for (size_t i = 0; i < configs->count && code == EXIT_FINE; i++) {
+        accel_size size;
+        accel_estimate(&loaded.scene, configs->items[i], NULL, &size, NULL);
         accel *a = open_structure(&loaded, configs->items[i], command, &progress);
         if (a == NULL) {
             code = EXIT_BAD;
@@ -110,7 +126,7 @@ static int describe(const struct command *command, const char *scene, const stru
             if (i == 0) {
                 print_scene(scene, &loaded);
             }
-            print_info(a);
+            print_info(a, &size);
         }
         accel_free(a);
     }

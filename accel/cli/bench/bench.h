@@ -38,6 +38,7 @@ void free_set(struct ray_set *set);
 struct bench_contender {
     char name[64];        /* config or peer */
     const char *kind;     /* what auto has become; ours only */
+    bool batch;           /* ours, its rays asked together: the one before it, which owns `state` */
     bool peer;            /* not ours: single precision, its answers are counted, not judged */
     void *state;          /* an accel, or the peer's scene */
     double build_seconds; /* processor time */
@@ -57,6 +58,19 @@ size_t bench_peers(struct bench_contender *peers, const accel_scene *scene, doub
 
 /* Why there are no peers in this build, or NULL. */
 const char *bench_no_peers(void);
+
+/* Rays that are asked together. */
+enum { BATCH = 256 };
+
+struct batch_answers {
+    size_t count;
+    accel_hit hits[BATCH];
+    bool flags[BATCH]; /* of an any set, which has no hits */
+};
+
+/* Asks BATCH rays of the set, or what is left of it, from the i-th on. Returns how many hit. */
+size_t ask_batch(const accel *a, const struct ray_set *set, size_t i, accel_query *query,
+                 struct batch_answers *out);
 
 /* All of one scene. */
 struct bench {

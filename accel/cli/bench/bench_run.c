@@ -30,6 +30,34 @@ static bool report(const struct bench *b, const char *name, const struct ray_set
     return false;
 }
 
+size_t ask_batch(const accel *a, const struct ray_set *set, size_t i, accel_query *query,
+                 struct batch_answers *out)
+{
+    out->count = set->count - i < BATCH ? set->count - i : BATCH;
+    return set->any ? accel_any_n(a, set->rays + i, out->flags, out->count, query)
+                    : accel_closest_n(a, set->rays + i, out->hits, out->count, query);
+}
+
+/* One that answers batches. */
+static bool judge_batches(struct bench *b, struct bench_contender *c, int s)
+{
+    const struct ray_set *set = &b->sets[s];
+    accel_query query = {0};
+    struct batch_answers got;
+    for (size_t i = 0; i < set->count; i += BATCH) {
+        ask_batch(c->state, set, i, &query, &got);
+        for (size_t j = 0; j < got.count; j++) {
+            const bool found = set->any ? got.flags[j] : got.hits[j].geom != ACCEL_NONE;
+            if (!same(set, i + j, found, set->any ? &set->hits[i + j] : &got.hits[j])) {
+                return report(b, c->name, set, i + j);
+            }
+        }
+    }
+    c->nodes[s] = (double)query.nodes / (double)set->count;
+    c->tests[s] = (double)query.tests / (double)set->count;
+    return true;
+}
+
 /* One of our structures, on all rays of a set. */
 static bool judge_structure(struct bench *b, struct bench_contender *c, int s, const accel *a,
                             size_t step)
@@ -85,7 +113,8 @@ bool bench_judge(struct bench *b, const accel *linear, size_t sample, struct pro
             progress_show(progress, "judged", -1.0);
             if (b->at[c].peer) {
                 count_wrong(b, &b->at[c], s);
-            } else if (!judge_structure(b, &b->at[c], s, b->at[c].state, 1)) {
+            } else if (b->at[c].batch ? !judge_batches(b, &b->at[c], s)
+                                      : !judge_structure(b, &b->at[c], s, b->at[c].state, 1)) {
                 return false;
             }
         }

@@ -137,7 +137,7 @@ static void note_regret(struct bench_output *out, const struct bench *b)
         if (strcmp(b->at[c].name, "auto") == 0) {
             chosen = &b->at[c];
             chosen_seconds = seconds;
-        } else if (!b->at[c].peer && seconds < best_seconds) {
+        } else if (!b->at[c].peer && !b->at[c].batch && seconds < best_seconds) {
             best = &b->at[c];
             best_seconds = seconds;
         }

@@ -9,6 +9,9 @@
 #include "rays.h"
 #include "structure.h"
 
+/* Queries whose differences are told apart: see answers.h. */
+enum { DIFFERS_BATCH = 16, QUERIES = 5 };
+
 /* One structure under check. */
 struct suspect {
     accel *structure;
@@ -16,11 +19,12 @@ struct suspect {
     bool added;      /* not asked for: a second opinion where linear judges a sample only */
     uint64_t hits;   /* rays that hit */
     uint64_t family_hits[FAMILIES];
-    uint64_t refused;     /* rays that were not valid */
-    uint64_t outside;     /* rays that met a raw hit before its object's box */
-    uint64_t mismatches;  /* rays with any difference */
-    uint64_t by_query[4]; /* of them by accel_closest, accel_any, accel_all, accel_point */
-    uint64_t first;       /* the lowest ray with a difference; UINT64_MAX for none */
+    uint64_t refused;           /* rays that were not valid */
+    uint64_t outside;           /* rays that met a raw hit before its object's box */
+    uint64_t mismatches;        /* rays with any difference */
+    uint64_t by_query[QUERIES]; /* of them by accel_closest, accel_any, accel_all, accel_point, and
+                                   by accel_closest_n or accel_any_n not as by a ray alone */
+    uint64_t first;             /* the lowest ray with a difference; UINT64_MAX for none */
 };
 
 /* A whole check. */

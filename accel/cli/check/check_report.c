@@ -95,7 +95,8 @@ static void print_head(const struct check *check)
                " by agreement of %zu structures\n",
                check->judged_count, check->ray_count, check->suspect_count);
     }
-    printf("compared: closest and any of each ray; all and point of one ray in %d\n\n",
+    printf("compared: closest and any of each ray, alone and in batches; all and point of one ray "
+           "in %d\n\n",
            LISTS_EVERY);
 }
 
@@ -113,9 +114,9 @@ static void print_suspect(const struct check *check, const struct suspect *suspe
     }
     if (suspect->mismatches != 0) {
         printf("  by query: closest %" PRIu64 ", any %" PRIu64 ", all %" PRIu64 ", point %" PRIu64
-               "\n",
+               ", batches %" PRIu64 "\n",
                suspect->by_query[0], suspect->by_query[1], suspect->by_query[2],
-               suspect->by_query[3]);
+               suspect->by_query[3], suspect->by_query[4]);
     }
 }
 

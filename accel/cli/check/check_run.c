@@ -18,7 +18,7 @@ enum { BLOCK = 64, MOST_DECIDED = 1000 };
 
 /* What one thread found out about one structure. */
 typedef struct tally {
-    uint64_t family_hits[FAMILIES], refused, outside, mismatches, by_query[4], first;
+    uint64_t family_hits[FAMILIES], refused, outside, mismatches, by_query[QUERIES], first;
 } tally;
 
 /* What the threads share. */
@@ -71,7 +71,7 @@ static void count(tally *t, uint64_t index, const struct answers *got, unsigned 
     }
     t->mismatches++;
     t->first = index < t->first ? index : t->first;
-    for (int i = 0; i < 4; i++) {
+    for (int i = 0; i < QUERIES; i++) {
         t->by_query[i] += differences >> i & 1;
     }
 }
@@ -106,8 +106,37 @@ void check_ask_judge(const struct check *check, const struct question *question,
     }
 }
 
+/* What a structure says to a block of rays at once. */
+struct batch {
+    accel_hit hits[BLOCK];
+    bool flags[BLOCK];
+};
+
+static void ask_batches(const struct check *check, uint64_t from, uint64_t to,
+                        struct batch *batches)
+{
+    accel_ray rays[BLOCK];
+    for (uint64_t i = from; i < to; i++) {
+        rays[i - from] = rays_make(&check->rays, i);
+    }
+    for (size_t s = 0; s < check->suspect_count; s++) {
+        const accel *a = check->suspects[s].structure;
+        accel_closest_n(a, rays, batches[s].hits, to - from, NULL);
+        accel_any_n(a, rays, batches[s].flags, to - from, NULL);
+    }
+}
+
+/* Is the i-th answer of a batch that to the ray alone? */
+static bool same_as_alone(const struct batch *batch, uint64_t i, const struct answers *alone)
+{
+    const accel_hit *hit = &batch->hits[i];
+    return batch->flags[i] == alone->any && (hit->geom != ACCEL_NONE) == alone->found &&
+           (!alone->found || same_hit(hit, &alone->closest));
+}
+
 /* `answers` has room for all structures and for the judge behind them. */
-static void check_ray(run *r, uint64_t index, tally *tallies, struct answers *answers)
+static void check_ray(run *r, uint64_t index, tally *tallies, const struct batch *batches,
+                      struct answers *answers)
 {
     const struct check *check = r->check;
     const struct question question = check_question(check, index);
@@ -128,8 +157,11 @@ static void check_ray(run *r, uint64_t index, tally *tallies, struct answers *an
         outside = outside || query.outside != 0;
     }
     for (size_t i = 0; i < check->suspect_count; i++) {
-        count(&tallies[i], index, &answers[i], answers_differ(&question, expected, &answers[i]),
-              outside);
+        unsigned differences = answers_differ(&question, expected, &answers[i]);
+        if (!same_as_alone(&batches[i], index % BLOCK, &answers[i])) {
+            differences |= DIFFERS_BATCH;
+        }
+        count(&tallies[i], index, &answers[i], differences, outside);
     }
 }
 
@@ -138,7 +170,10 @@ static void work(void *user, unsigned thread)
     run *r = user;
     struct check *check = r->check;
     struct answers *answers = malloc((check->suspect_count + 1) * sizeof *answers);
-    if (answers == NULL) {
+    struct batch *batches = malloc(check->suspect_count * sizeof *batches);
+    if (answers == NULL || batches == NULL) {
+        free(answers);
+        free(batches);
         atomic_store(&r->failed, true);
         return;
     }
@@ -149,14 +184,16 @@ static void work(void *user, unsigned thread)
             break;
         }
         const uint64_t to = from + BLOCK < check->ray_count ? from + BLOCK : check->ray_count;
+        ask_batches(check, from, to, batches);
         for (uint64_t i = from; i < to; i++) {
-            check_ray(r, i, tallies, answers);
+            check_ray(r, i, tallies, batches, answers);
         }
         if (thread == 0) {
             progress_show(&check->progress, "checking rays", (double)to / (double)check->ray_count);
         }
     }
     free(answers);
+    free(batches);
 }
 
 static void add_tally(struct suspect *suspect, const tally *t)
@@ -169,7 +206,7 @@ static void add_tally(struct suspect *suspect, const tally *t)
     suspect->outside += t->outside;
     suspect->mismatches += t->mismatches;
     suspect->first = t->first < suspect->first ? t->first : suspect->first;
-    for (int i = 0; i < 4; i++) {
+    for (int i = 0; i < QUERIES; i++) {
         suspect->by_query[i] += t->by_query[i];
     }
 }

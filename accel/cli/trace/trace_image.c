@@ -132,6 +132,26 @@ static void paint_hit(void *target, const accel_scene *scene, size_t pixel, cons
     }
 }
 
+/* Pixels that are asked together. */
+enum { BATCH = 256 };
+
+/* Some pixels of a row, one at least. Returns how many. */
+static uint32_t trace_pixels(const run *r, uint32_t row, uint32_t from)
+{
+    accel_ray rays[BATCH];
+    accel_hit hits[BATCH];
+    uint32_t count = 0;
+    do {
+        rays[count] = camera_ray(r->camera, from + count, row);
+    } while (++count < BATCH && from + count < r->camera->width);
+    accel_closest_n(r->tracing->structure, rays, hits, count, NULL);
+    for (uint32_t i = 0; i < count; i++) {
+        r->use(r->target, r->tracing->scene, (size_t)row * r->camera->width + from + i, &rays[i],
+               hits[i].geom != ACCEL_NONE ? &hits[i] : NULL);
+    }
+    return count;
+}
+
 static void work(void *user, unsigned thread)
 {
     run *r = user;
@@ -141,12 +161,8 @@ static void work(void *user, unsigned thread)
         if (row >= r->camera->height) {
             return;
         }
-        for (uint32_t column = 0; column < r->camera->width; column++) {
-            const accel_ray ray = camera_ray(r->camera, column, row);
-            accel_hit hit;
-            const bool found = accel_closest(tracing->structure, &ray, &hit, NULL);
-            r->use(r->target, tracing->scene, (size_t)row * r->camera->width + column, &ray,
-                   found ? &hit : NULL);
+        for (uint32_t from = 0; from < r->camera->width;) {
+            from += trace_pixels(r, row, from);
         }
         if (thread == 0) {
             progress_show(&tracing->progress, "tracing", (double)row / (double)r->camera->height);

@@ -62,7 +62,7 @@ static bool choose(struct build *build)
     struct memory m = build->a->memory;
     accel *a = accel_memory_resize(&m, build->a, from->size, to->size);
     if (!a) {
-        build->a->memory.refused = m.refused;
+        build->a->memory = m;
         return accel_build_no_memory(build);
     }
     memset((char *)a + from->size, 0, to->size - from->size);
@@ -112,8 +112,18 @@ static void seal(accel *a)
 
 static accel *allocate(const struct accel_kind *kind, const accel_hooks *hooks, accel_error *error)
 {
-    struct memory m = {hooks->resize ? hooks->resize : accel_memory_system, hooks->user, 0, 0, 0};
+    struct memory m = {.resize = hooks->resize ? hooks->resize : accel_memory_system,
+                       .user = hooks->user,
+                       .limit = hooks->memory_limit};
     accel *a = accel_memory_resize(&m, NULL, 0, kind->size);
+    if (!a && m.wanted > 0) {
+        accel_error_set(
+            error, ACCEL_NO_MEMORY,
+            "build %s: hooks.memory_limit allows %zu bytes, but %zu are needed in phase "
+            "'start'; nothing was built",
+            kind->info.name, m.limit, m.wanted);
+        return NULL;
+    }
     if (!a) {
         accel_error_set(error, ACCEL_NO_MEMORY,
                         "build %s: no memory for %zu bytes in phase 'start'; nothing was built",
@@ -144,6 +154,7 @@ __attribute__((noinline)) static accel_status build_scene(accel **out, const acc
         accel_free(build.a);
         return error->status;
     }
+    build.a->memory.limit = 0; /* queries of a lazy structure keep their own account */
     seal(build.a);
     *out = build.a;
     return ACCEL_OK;

@@ -51,6 +51,12 @@ bool accel_build_tick(struct build *build, double done)
 bool accel_build_no_memory(struct build *build)
 {
     const struct memory *m = build->memory;
+    if (m->wanted > 0)
+        return accel_error_set(build->error, ACCEL_NO_MEMORY,
+                               "build %s: hooks.memory_limit allows %zu bytes, but %zu are needed "
+                               "in phase '%s', a block of %zu among them; nothing was built",
+                               build->kind, m->limit, m->wanted, build->phase, m->refused),
+               false;
     accel_error_set(
         build->error, ACCEL_NO_MEMORY,
         "build %s: no memory for a block of %zu bytes in phase '%s', %zu bytes were held; "

@@ -40,12 +40,19 @@ void *accel_memory_resize(struct memory *m, void *old, size_t from, size_t to)
 {
     if (from == to)
         return old;
+    const size_t held = m->bytes - from;
+    if (m->limit > 0 && to > from && (held > m->limit || to > m->limit - held)) {
+        m->refused = to;
+        m->wanted = to > SIZE_MAX - held ? SIZE_MAX : held + to;
+        return NULL;
+    }
     void *block = m->resize(m->user, old, from, to);
     if (!block && to != 0) {
         m->refused = to;
+        m->wanted = 0;
         return NULL;
     }
-    m->bytes = m->bytes - from + to;
+    m->bytes = held + to;
     if (m->bytes > m->peak)
         m->peak = m->bytes;
     return block;
@@ -60,6 +67,7 @@ bool accel_memory_room(struct memory *m, void **at, size_t *capacity, size_t nee
         grown = need;
     if (grown > SIZE_MAX / size) {
         m->refused = SIZE_MAX;
+        m->wanted = 0;
         return false;
     }
     void *block = accel_memory_resize(m, *at, *capacity * size, grown * size);

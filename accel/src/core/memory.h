@@ -16,6 +16,8 @@ struct memory {
     size_t bytes;                                                   /* held now */
     size_t peak;                                                    /* held at most so far */
     size_t refused; /* the size that could not be had, 0 if all went well */
+    size_t limit;   /* most that may be held, accel_hooks.memory_limit; 0: no limit */
+    size_t wanted;  /* what would have been held with what the limit refused; 0: it refused nothing */
 };
 
 /* The hook that stands for none: realloc and free. */

@@ -158,6 +158,44 @@ bool accel_any(const accel *a, const accel_ray *ray, accel_query *query)
     return find_first(&q, a, ray, true, &found, query);
 }
 
+/* Of a batch without a structure or rays. */
+static size_t refuse_n(size_t count, accel_query *caller)
+{
+    if (caller)
+        caller->refused += count;
+    return 0;
+}
+
+size_t accel_closest_n(const accel *a, const accel_ray *rays, accel_hit *hits, size_t count,
+                       accel_query *query)
+{
+    if (a && rays && a->fast && a->fast->used > WIDE_BATCH_BYTES)
+        return a->fast->isa->closest_n(a, a->fast, rays, hits, count, query);
+    size_t found = 0;
+    for (size_t i = 0; i < count; i++) {
+        accel_hit hit = wide_no_hit();
+        found += rays && accel_closest(a, &rays[i], &hit, query);
+        if (hits)
+            hits[i] = hit;
+    }
+    return rays ? found : refuse_n(count, query);
+}
+
+size_t accel_any_n(const accel *a, const accel_ray *rays, bool *flags, size_t count,
+                   accel_query *query)
+{
+    if (a && rays && a->fast && a->fast->used > WIDE_BATCH_BYTES)
+        return a->fast->isa->any_n(a, a->fast, rays, flags, count, query);
+    size_t found = 0;
+    for (size_t i = 0; i < count; i++) {
+        const bool hit = rays && accel_any(a, &rays[i], query);
+        found += hit;
+        if (flags)
+            flags[i] = hit;
+    }
+    return rays ? found : refuse_n(count, query);
+}
+
 /* Receives what an all query found. */
 typedef bool visit_found(void *visitor, const struct primitives *p, const struct found *f);
 

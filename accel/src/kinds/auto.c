@@ -232,10 +232,12 @@ static bool go_on(void *user, const char *phase, double done)
 static accel_hooks hooks_of(struct chooser *c)
 {
     const accel_hooks *host = c->build->hooks;
+    const struct memory *m = &c->build->a->memory;
     return (accel_hooks){.user = c,
                          .resize = host->resize ? resize_of_host : NULL,
                          .progress = go_on,
-                         .threads = 1}; /* to start more takes longer */
+                         .threads = 1, /* to start more takes longer */
+                         .memory_limit = m->limit > m->bytes ? m->limit - m->bytes : m->limit > 0};
 }
 
 static bool try_kind(struct chooser *c, struct candidate *k)
@@ -243,10 +245,17 @@ static bool try_kind(struct chooser *c, struct candidate *k)
     accel *a;
     accel_error error;
     struct memory *m = &c->build->a->memory;
+    c->hooks = hooks_of(c);
     const accel_status status =
         accel_build(&a, &c->sample.scene, k->kind->info.name, &c->hooks, &error);
     if (status != ACCEL_OK) {
-        if (status != ACCEL_CANCELLED) /* that has been told already, as the choice's own */
+        if (status == ACCEL_NO_MEMORY && m->limit > 0)
+            accel_error_set(
+                c->build->error, status,
+                "build auto: hooks.memory_limit allows %zu bytes, but to try %s in phase "
+                "'choose' more are needed beside %zu; nothing was built",
+                m->limit, k->kind->info.name, m->bytes);
+        else if (status != ACCEL_CANCELLED) /* that has been told already, as the choice's own */
             *c->build->error = error;
         return false;
     }
@@ -355,7 +364,6 @@ static bool choose(struct build *build, const struct accel_kind **kind)
     const double rays = build->a->option[RAYS], n = (double)build->a->prims.bounded.count;
     struct chooser c = {.build = build, .hits = 0.0};
     *kind = linear;
-    c.hooks = hooks_of(&c);
     weigh_primitives(&c);
     if (1e-9 * rays * n * linear->cost.triangle < WORTH_CHOOSING) {
         accel_build_note(build,

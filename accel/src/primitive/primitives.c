@@ -79,7 +79,7 @@ static enum sort copy_object(const accel_objects *o, uint32_t i, accel_box *box)
     return in_range(box->lo, 3) && in_range(box->hi, 3) ? BOUNDED : UNBOUNDED;
 }
 
-static uint32_t geometry_size(const accel_geometry *g)
+uint32_t accel_primitives_in(const accel_geometry *g)
 {
     return g->type == ACCEL_TRIANGLES ? g->triangles.count
            : g->type == ACCEL_SPHERES ? g->spheres.count
@@ -130,7 +130,7 @@ static bool check(struct build *build, const accel_scene *scene)
                             g, wrong);
             return false;
         }
-        total += geometry_size(&scene->geometries[g]);
+        total += accel_primitives_in(&scene->geometries[g]);
     }
     if (total >= too_many) {
         accel_error_set(build->error, ACCEL_TOO_LARGE,
@@ -192,7 +192,7 @@ static bool copy_header(struct build *build, const accel_geometry *from, uint32_
 {
     g->type = from->type;
     g->first = first;
-    g->count = geometry_size(from);
+    g->count = accel_primitives_in(from);
     g->order = ACCEL_ORDER_KEY;
     if (from->type == ACCEL_OBJECTS) {
         g->order = from->objects.order;
@@ -255,6 +255,14 @@ static bool enter(struct build *build, struct primitives *p, uint32_t id, enum s
     return true;
 }
 
+static bool are_floats(const double *x, size_t count)
+{
+    bool all = true;
+    for (size_t i = 0; i < count; i++)
+        all &= (double)(float)x[i] == x[i];
+    return all;
+}
+
 static bool copy_geometry(struct build *build, struct primitives *p, const accel_geometry *from,
                           uint32_t number)
 {
@@ -265,6 +273,8 @@ static bool copy_geometry(struct build *build, struct primitives *p, const accel
         if (p->geometry_of)
             p->geometry_of[id] = number;
         const enum sort sort = copy_primitive(from, g, i, &p->box[id]);
+        p->only_floats =
+            p->only_floats && (sort != BOUNDED || are_floats(g->data + words * i, words));
         if (sort == BOUNDED && words > 0)
             p->data_seal += seal_primitive(id, g->data + words * i, words);
         if (!enter(build, p, id, sort))
@@ -291,7 +301,7 @@ static uint32_t scene_size(const accel_scene *scene)
 {
     uint32_t total = 0;
     for (uint32_t g = 0; g < scene->count; g++)
-        total += geometry_size(&scene->geometries[g]);
+        total += accel_primitives_in(&scene->geometries[g]);
     return total;
 }
 
@@ -331,6 +341,28 @@ static void describe(struct build *build, const struct primitives *p)
             "time only)");
 }
 
+bool accel_primitives_check(struct build *build, const accel_scene *scene, uint32_t *count)
+{
+    if (!check(build, scene))
+        return false;
+    for (uint32_t g = 0; g < scene->count; g++)
+        if (scene->geometries[g].type == ACCEL_TRIANGLES &&
+            !check_indices(build, g, &scene->geometries[g].triangles))
+            return false;
+    *count = scene_size(scene);
+    return true;
+}
+
+bool accel_primitives_bounded(const accel_geometry *from, uint32_t i, accel_box *box)
+{
+    double copied[9];
+    if (from->type == ACCEL_TRIANGLES)
+        return copy_triangle(&from->triangles, i, copied, box) == BOUNDED;
+    if (from->type == ACCEL_SPHERES)
+        return copy_sphere(&from->spheres, i, copied, box) == BOUNDED;
+    return copy_object(&from->objects, i, box) == BOUNDED;
+}
+
 bool accel_primitives_copy(struct build *build, struct primitives *p, const accel_scene *scene)
 {
     if (!check(build, scene))
@@ -351,7 +383,7 @@ bool accel_primitives_copy(struct build *build, struct primitives *p, const acce
     p->bounds = box_empty();
     p->test_cost = mean_cost(p);
     p->triangles = has_triangles(p);
-    p->only_triangles = only_triangles(p);
+    p->only_triangles = p->only_floats = only_triangles(p);
     p->by_key = by_key(p);
     if (total == 0)
         return true;
@@ -377,12 +409,18 @@ void accel_primitives_leave(struct memory *m, struct primitives *p)
 {
     for (uint32_t g = 0; g < p->geometry_count; g++)
         free_data(m, &p->geometry[g]);
+    p->left = true;
+}
+
+size_t accel_primitives_leave_boxes(struct memory *m, struct primitives *p)
+{
+    const size_t before = m->bytes;
     accel_memory_resize(m, p->box, p->count * sizeof *p->box, 0);
     accel_memory_resize(m, p->bounded.at, p->bounded.capacity * sizeof *p->bounded.at, 0);
-    p->left = true;
     p->box = NULL;
     p->bounded.at = NULL;
     p->bounded.capacity = 0;
+    return before - m->bytes;
 }
 
 void accel_primitives_free(struct memory *m, struct primitives *p)

@@ -45,6 +45,7 @@ struct primitives {
     accel_box bounds;          /* around the padded boxes of all that is bounded */
     bool triangles;            /* there are some */
     bool only_triangles;       /* no spheres, no objects */
+    bool only_floats;          /* nothing but triangles whose coordinates are floats */
     bool by_key;               /* no objects whose hits are ordered as reported */
     bool left;                 /* the kind alone has the triangles: see accel_primitives_leave */
     uint64_t box_seal;         /* over all boxes: see seal.h */
@@ -56,8 +57,20 @@ struct primitives {
 /* Copies and checks the scene, filling the counts in build->info. False: see build->error. */
 bool accel_primitives_copy(struct build *build, struct primitives *p, const accel_scene *scene);
 
-/* Where there are only bounded triangles, and the kind keeps their vertices: frees vertices, boxes
- * and the list of ids (not its count), for good. */
+/* What accel_primitives_copy checks before it allocates anything for the primitives: arrays and
+ * indices of the whole scene, and how many primitives there are. False: see build->error. */
+bool accel_primitives_check(struct build *build, const accel_scene *scene, uint32_t *count);
+
+/* How many primitives a geometry has. */
+uint32_t accel_primitives_in(const accel_geometry *geometry);
+
+/* The box of one of its primitives, not padded. False if it is not bounded, or left out. */
+bool accel_primitives_bounded(const accel_geometry *geometry, uint32_t i, accel_box *box);
+
+/* Where there are only bounded triangles, and the kind keeps their vertices: frees boxes and the
+ * list of ids (not its count), for good, and returns how many bytes that were; then the vertices.
+ */
+size_t accel_primitives_leave_boxes(struct memory *m, struct primitives *p);
 void accel_primitives_leave(struct memory *m, struct primitives *p);
 
 /* Notes the geometries as they now are. */

@@ -81,8 +81,15 @@ struct wide {
     uint32_t depth;      /* levels of nodes */
     uint64_t nodes, leaves, blocks;
     const struct wide_isa *isa;
+    size_t boxes;  /* bytes of boxes and ids that were freed before the layout */
     uint64_t seal; /* of the nodes and leaves: see seal.h */
 };
+
+/* Do the leaves hold all that is known of the primitives? Then nothing else keeps it. */
+static inline bool accel_wide_holds_all(const struct wide *w, const struct primitives *p)
+{
+    return w->fast && p->only_triangles && p->unbounded.count == 0;
+}
 
 static inline const struct wide_node *wide_node_at(const struct wide *w, uint32_t word)
 {

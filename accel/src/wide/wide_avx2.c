@@ -196,6 +196,8 @@ static inline uint32_t lanes_with_id(const uint32_t *ids, uint32_t id)
 
 #include "wide_fast.h"
 
+#include "wide_batch.h"
+
 /* By the instructions of the set, so only to be called where they are. */
 __attribute__((noinline)) CONTRACT_CHECK(contract_kept);
 
@@ -218,6 +220,8 @@ const struct wide_isa accel_wide_avx2 = {
     .closest = closest,
     .any = any,
     .walk = walk,
+    .closest_n = closest_n,
+    .any_n = any_n,
     .find_box = accel_wide_find_box,
 };
 

@@ -229,6 +229,8 @@ __attribute__((always_inline)) static inline bool leaf_test(struct wide_fast *f,
 
 #include "wide_fast.h"
 
+#include "wide_batch.h"
+
 /* By the instructions of the set, so only to be called where they are. */
 __attribute__((noinline)) CONTRACT_CHECK(contract_kept);
 
@@ -252,6 +254,8 @@ const struct wide_isa accel_wide_avx512 = {
     .closest = closest,
     .any = any,
     .walk = walk,
+    .closest_n = closest_n,
+    .any_n = any_n,
     .find_box = accel_wide_find_box,
 };
 

@@ -78,6 +78,8 @@ bool accel_wide_build(struct build *build, struct wide *w, const struct wide_isa
     accel_build_phase(build, "tree");
     bool fine = allocate(build, &tree) && accel_wide_grow(build, w, isa->rule, cut, &tree);
     if (fine) {
+        if (accel_wide_holds_all(w, p))
+            w->boxes = accel_primitives_leave_boxes(&build->a->memory, &build->a->prims);
         accel_build_phase(build, "layout");
         fine = accel_wide_emit(build, w, isa->rule, &tree);
     }

@@ -370,6 +370,18 @@ static bool emit(struct emitter *e, uint32_t place, uint32_t depth, uint32_t *wo
 
 /* --------------------------------------------------------------------------------- room ---- */
 
+/* The bytes that a leaf takes at most. A block with a pool is full with 5 triangles at the least,
+ * as they have 15 vertices at the most. */
+static size_t room_for_leaf(const struct emitter *e, size_t count)
+{
+    const size_t align = 15, head = sizeof(struct wide_block) + align, id = sizeof(uint32_t);
+    if (!e->build->a->prims.only_floats)
+        return count * (head + 9 * sizeof(double) + id);
+    const size_t least = e->rule.pool ? POOL / 3 : WIDE_BLOCK;
+    const size_t corners = e->rule.pool ? 3 * WIDE_BLOCK : 0;
+    return count * (9 * sizeof(float) + id) + (count + least - 1) / least * (head + corners);
+}
+
 /* The bytes that the subtree takes at most. */
 static size_t room_for(struct emitter *e, uint32_t place)
 {
@@ -378,7 +390,7 @@ static size_t room_for(struct emitter *e, uint32_t place)
     if (!tick(e, TICK_ROOM))
         return 0;
     if (top->leaf)
-        return top->count * (sizeof(struct wide_block) + 16 + 76);
+        return room_for_leaf(e, top->count);
     collect(e, place + 1, top->left_of_all, &c);
     collect(e, top->right, WIDE - top->left_of_all, &c);
     size_t capacity = sizeof(struct wide_node) + 64;

@@ -23,10 +23,10 @@ static const struct wide_isa *choose_isa(struct build *build, double option)
 }
 
 /* Keeps nothing of the scene that the leaves hold. */
-static void leave(struct build *build)
+static void leave(struct build *build, const struct wide *w)
 {
     struct memory *m = &build->a->memory;
-    const size_t before = m->bytes;
+    const size_t before = m->bytes + w->boxes;
     accel_primitives_leave(m, &build->a->prims);
     accel_build_left_out(
         build, before - m->bytes, before,
@@ -48,8 +48,8 @@ bool accel_wide_form_build(struct build *build, struct wide *w, const double *is
         accel_build_left_out(build, sizeof(struct wide_node), w->bytes,
                              "few primitives: a leaf, no tree");
     build->a->fast = w->fast ? w : NULL;
-    if (w->fast && p->only_triangles && p->unbounded.count == 0)
-        leave(build);
+    if (accel_wide_holds_all(w, p))
+        leave(build, w);
     return true;
 }
 

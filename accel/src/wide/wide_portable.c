@@ -146,6 +146,8 @@ static inline lanes coordinates(const struct wide_block *b, uint32_t row, uint32
 
 #include "wide_fast.h"
 
+#include "wide_batch.h"
+
 static bool works_here(void)
 {
     return true;
@@ -158,5 +160,7 @@ const struct wide_isa accel_wide_portable = {
     .closest = closest,
     .any = any,
     .walk = walk,
+    .closest_n = closest_n,
+    .any_n = any_n,
     .find_box = accel_wide_find_box,
 };
