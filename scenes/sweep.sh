@@ -67,7 +67,7 @@ trace() {
 }
 
 median() {
-    sort -g | awk '{ t[NR] = $1 } END { print t[int((NR + 1) / 2)] }'
+    sort -g | awk '{ t[NR] = $1 } END { print (t[int((NR + 1) / 2)] + t[int(NR / 2) + 1]) / 2 }'
 }
 
 # A line of the table: gain, seconds of each method, unbounded and all objects, name

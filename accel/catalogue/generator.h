@@ -14,7 +14,7 @@ typedef bool generate_scene(struct loaded *out, const double *values);
 
 /* One built-in scene. */
 struct generator {
-    accel_kind_info info;     /* what scene_kinds shows */
+    accel_kind_info info;     /* what `accel kinds` shows */
     generate_scene *generate; /* makes it */
 };
 

@@ -71,6 +71,7 @@ loads long_line.obj 1 "$unit" "# $(printf '%070000d' 0)\n${v}f 1 2 3\n"
 loads long_blanks.obj 1 "$unit" "v$(printf '%9000s' '') 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
 refuses nul.obj ":5: found 'f?1'" "${v}f\x001 2 3\n"
 refuses nul_end.obj ":6: found '????'" "${v}f 1 2 3\n\x00\x00\x00\x00"
+refuses gzip.obj 'is compressed by gzip' '\x1f\x8b\x08\x00v 0 0 0'
 refuses utf16.obj 'is text in UTF-16' '\xff\xfev\x00 \x000\x00'
 
 # Keywords.

@@ -55,11 +55,19 @@ wrong two_ends "1: '0.25,0.25,5,0,0,-1,,'" '0.25,0.25,5,0,0,-1,,\n'
 wrong late_header "2: 'ox oy oz dx dy dz' is no ray" "$one\nox oy oz dx dy dz\n"
 wrong two_headers "2: 'a b c d e f' is no ray" "ox oy oz dx dy dz\na b c d e f\n$one\n"
 wrong half_header "1: 'ox oy oz 0 0 1' is no ray" "ox oy oz 0 0 1\n$one\n"
-wrong nul "2: '9' is no ray" "$one\n9\x009 9 5 0 0 -1\n"
+wrong nul "2: '9?9 9 5 0 0 -1' is no ray" "$one\n9\x009 9 5 0 0 -1\n"
+wrong nul_end "1: '$one?' is no ray" "$one\x00\n"
 wrong words "1: '0.25 0.25 5 0 0 -1 x' is no ray" "$one x\n"
 wrong escape "1: '1 2 ?[31m?3?' is no ray" '1 2 \x1b[31m\x9b3\x7f\n'
 wrong not_utf8 "1: 'é ? ? ?( ??? € ?' is no ray" 'é \xff \xe9 \xc3( \xed\xa0\x80 € \xe2\x80\xae\n'
 wrong cut "1: '$(printf 'é%.0s' {1..39}) ?' is no ray" "$(printf 'é%.0s' {1..39}) é\n"
+
+# What is no ray that can be traced is told, with its first line.
+printf '%s\nnan 0 1 0 0 -1\n0 0 1 0 0 0\n' "$one" >untraced.txt
+expect 0 trace one --rays untraced.txt -o untraced.hits
+grep -q '^accel trace: untraced.txt:2: 2 of 3 rays cannot be traced' err || fail "untraced: $(cat err)"
+[ "$(cut -c 1-4 untraced.hits | tr '\n' ' ')" = "0 0  miss miss " ] || fail "untraced: $(cat untraced.hits)"
+
 wrong none " holds no ray" '# nothing\n\n'
 wrong only_header " holds no ray" 'ox oy oz dx dy dz\n'
 finish

@@ -110,12 +110,44 @@ static void few_rays_need_nothing(void **state)
     scene_free(&s);
 }
 
+static void note_no_hit(accel_probe *probe)
+{
+    (void)probe;
+}
+
+/* Few rays over objects whose callback takes long do pay for a structure. */
+static void costly_objects_need_one(void **state)
+{
+    (void)state;
+    enum { N = 2000 };
+    static accel_box boxes[N];
+    struct rng d = rng_from(test_seed(), 7);
+    for (size_t i = 0; i < N; i++)
+        for (int k = 0; k < 3; k++) {
+            boxes[i].lo[k] = rng_unit(&d);
+            boxes[i].hi[k] = boxes[i].lo[k] + 0.02;
+        }
+    accel_geometry objects = {
+        .type = ACCEL_OBJECTS,
+        .objects = {.boxes = boxes, .count = N, .intersect = note_no_hit, .cost = 1e6}};
+    struct test_scene s = {.scene = {&objects, 1}};
+    for (int costly = 0; costly < 2; costly++) {
+        accel *a;
+        objects.objects.cost = costly ? 1e6 : 1.0;
+        const accel_info info = build_auto(&a, &s, "auto:rays=100", NULL);
+        if (kind_is_there("bvh"))
+            assert_int_equal(strcmp(info.kind, "linear") != 0, costly);
+        accel_free(a);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pilot_decides_no_answer),
         cmocka_unit_test(pilot_is_traced),
         cmocka_unit_test(few_rays_need_nothing),
+        cmocka_unit_test(costly_objects_need_one),
     };
     return cmocka_run_group_tests_name("choice", tests, NULL, NULL);
 }

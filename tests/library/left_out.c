@@ -37,6 +37,45 @@ static const struct expected {
     {"mixed", "one geometry", all_kinds, false, true},
 };
 
+/* An option that the form does not read is named. */
+static void idle_options_are_named(void **state)
+{
+    (void)state;
+    static const char *const said[][2] = {
+        {"octree:form=wide,root=scene", "root has no effect with form=wide"},
+        {"octree:leaf=8,isa=portable", "isa has no effect with form=classic"},
+        {"hoo:form=wide,lazy=on", "lazy has no effect with form=wide"},
+        {"hoo:form=classic,part=100", "part has no effect with lazy=off"},
+        {"hug:cells=9", "cells has no effect with form=density"},
+        {"hug:form=paper,density=3", "density has no effect with form=paper"},
+        {"hoo:leaf=8", NULL},
+        {"octree", NULL},
+        {"hug", NULL},
+    };
+    struct test_scene s;
+    scene_make(&s, scene_maker_find("one-sphere"), test_seed());
+    for (size_t i = 0; i < sizeof said / sizeof *said; i++) {
+        accel *a;
+        accel_info info;
+        accel_error error;
+        bool found = false, any = false;
+        char kind[16] = "";
+        memcpy(kind, said[i][0], strcspn(said[i][0], ":"));
+        if (!kind_is_there(kind))
+            continue;
+        assert_int_equal(accel_build(&a, &s.scene, said[i][0], NULL, &error), ACCEL_OK);
+        accel_describe(a, &info);
+        for (uint32_t k = 0; k < info.note_count; k++) {
+            any = any || strstr(info.notes[k], "no effect");
+            found = found || (said[i][1] && strcmp(info.notes[k], said[i][1]) == 0);
+        }
+        if (any != (said[i][1] != NULL) || found != any)
+            fail_msg("%s: notes", said[i][0]);
+        accel_free(a);
+    }
+    scene_free(&s);
+}
+
 static void check(const struct expected *e, const struct test_scene *s, const char *kind)
 {
     accel *a = must_build(s, kind);
@@ -113,6 +152,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_expectations),
         cmocka_unit_test(test_short_cluster),
+        cmocka_unit_test(idle_options_are_named),
     };
     return cmocka_run_group_tests_name("left_out", tests, NULL, NULL);
 }

@@ -146,6 +146,11 @@ static bool finish(mesh_reader *r)
     return true;
 }
 
+static bool is_gzip(const struct mesh_source *source)
+{
+    return source->size >= 2 && memcmp(source->bytes, "\x1f\x8b", 2) == 0;
+}
+
 /* Without its reader: what is no mesh in any of the formats. */
 static bool read_as(mesh_reader *r, enum mesh_format format)
 {
@@ -159,6 +164,9 @@ static bool read_as(mesh_reader *r, enum mesh_format format)
     }
     if (is_utf16(r->source) && !mesh_is_binary_stl(r->source->bytes, r->source->size)) {
         return mesh_refuse(r, "is text in UTF-16, allowed is UTF-8");
+    }
+    if (is_gzip(r->source) && !mesh_is_binary_stl(r->source->bytes, r->source->size)) {
+        return mesh_refuse(r, "is compressed by gzip, allowed is what it holds");
     }
     return readers[format](r) && finish(r);
 }

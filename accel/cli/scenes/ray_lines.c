@@ -19,6 +19,17 @@ struct ray_lines ray_lines_start(const struct file *file)
                               .end = file->bytes + file->size};
 }
 
+/* Shows zero bytes as '?'. True if there were none. */
+static bool show_zeros(char *at, size_t size)
+{
+    bool whole = true;
+    for (size_t i = 0; i < size; i++) {
+        whole = whole && at[i] != '\0';
+        at[i] = at[i] != '\0' ? at[i] : '?';
+    }
+    return whole;
+}
+
 /* Cuts off the next line and its comment. False: a zero byte is in it, behind which more may be. */
 static bool take_line(struct ray_lines *lines)
 {
@@ -27,7 +38,7 @@ static bool take_line(struct ray_lines *lines)
         stop++;
     }
     const bool two = stop + 1 < lines->end && stop[0] == '\r' && stop[1] == '\n';
-    const bool whole = memchr(lines->line, '\0', (size_t)(stop - lines->line)) == NULL;
+    const bool whole = show_zeros(lines->line, (size_t)(stop - lines->line));
     lines->at = stop < lines->end ? stop + (two ? 2 : 1) : stop;
     lines->number++;
     *stop = '\0';

@@ -22,7 +22,7 @@ struct tracing {
 void hit_normal(const accel_scene *scene, const accel_ray *ray, const accel_hit *hit,
                 double normal[3]);
 
-/* Traces one ray for each pixel into the channels that trace_channels names. Returns false
+/* Traces one ray for each pixel into the channels of an image (tool/image.h). Returns false
  * when memory runs out. */
 bool trace_image(struct tracing *tracing, const struct camera *camera, struct image *image);
 

@@ -12,10 +12,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-static void write_hit(const struct tracing *tracing, const accel_ray *ray, FILE *out)
+static void write_hit(const struct tracing *tracing, const accel_ray *ray, FILE *out,
+                      accel_query *query)
 {
     accel_hit hit;
-    if (accel_closest(tracing->structure, ray, &hit, NULL)) {
+    if (accel_closest(tracing->structure, ray, &hit, query)) {
         fprintf(out, "%" PRIu32 " %" PRIu32 " %.17g %.17g %.17g\n", hit.geom, hit.prim, hit.t,
                 hit.u, hit.v);
     } else {
@@ -40,8 +41,13 @@ static bool trace_lines(struct tracing *tracing, const struct file *file, FILE *
     accel_ray ray;
     enum ray_line found;
     uint64_t rays = 0;
+    accel_query query = {NULL, 0, 0, 0, 0};
+    size_t first_refused = 0;
     while ((found = next_ray(&lines, &ray)) == RAY_LINE) {
-        write_hit(tracing, &ray, out);
+        write_hit(tracing, &ray, out, &query);
+        if (query.refused != 0 && first_refused == 0) {
+            first_refused = lines.number;
+        }
         progress_show(&tracing->progress, "tracing",
                       (double)(lines.at - file->bytes) / (double)file->size);
         rays++;
@@ -53,6 +59,15 @@ static bool trace_lines(struct tracing *tracing, const struct file *file, FILE *
         error->status = ACCEL_BAD_ARGUMENT;
         snprintf(error->text, sizeof error->text, "%.200s: holds no ray; nothing was written",
                  file->path);
+    }
+    if (query.refused != 0) {
+        progress_clear(&tracing->progress);
+        fprintf(
+            stderr,
+            "accel trace: %.200s:%zu: %" PRIu64 " of %" PRIu64 " rays cannot be traced, this one "
+            "first; allowed are finite numbers and a direction other than 0; they are written as "
+            "misses\n",
+            file->path, first_refused, (uint64_t)query.refused, rays);
     }
     return rays != 0;
 }

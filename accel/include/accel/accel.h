@@ -327,7 +327,7 @@ typedef struct accel_hooks {
      * starts at 0 again. Return false to cancel. Never called by queries. */
     bool (*progress)(void *user, const char *phase, double done);
     /* First rays that will come, such as every so many-th of a camera, `pilot_count` of them; of
-     * more than 256 every so many-th is taken. The kind "auto" counts what they, and rays that go
+     * more than 64, or then 256, every so many-th is taken. The kind "auto" counts what they, and rays that go
      * on from what they hit, would visit before it chooses; they decide no answer. Read during
      * accel_build only. */
     const accel_ray *pilot;

@@ -93,6 +93,14 @@ static bool run(struct build *build, const accel_scene *scene)
     return true;
 }
 
+void accel_note_idle_option(struct build *build, size_t option, const char *form)
+{
+    const accel_option *o = &build->a->kind->info.options[option];
+    const double value = build->a->option[option];
+    if (value != o->standard && !(isnan(value) && isnan(o->standard)))
+        accel_build_note(build, "%s has no effect with %s", o->key, form);
+}
+
 static uint64_t seal_of_base(const accel *a)
 {
     return seal_bytes(a, offsetof(accel, seal));

@@ -36,8 +36,7 @@ static void complain(accel_error *error, const char *what, const struct choice *
                         what, shown(found), found.at, c->list, c->likely.word);
     else
         accel_error_set(error, ACCEL_BAD_CONFIG, "config: %s '%.*s', %s%s; nothing was built", what,
-                        shown(found), found.at, *c->list ? "allowed are " : "but none is allowed",
-                        c->list);
+                        shown(found), found.at, *c->list ? "allowed are " : "it has none", c->list);
 }
 
 static const struct accel_kind *find_kind(struct word name, accel_error *error)

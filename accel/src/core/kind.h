@@ -35,6 +35,9 @@ struct accel_kind {
     void (*release)(struct accel *a);
 };
 
+/* Adds a note if an option was given that the form that is built does not read. */
+void accel_note_idle_option(struct build *build, size_t option, const char *form);
+
 /* The kinds, NULL-ended; each is the `info` of an accel_kind. */
 extern const accel_kind_info *const accel_kind_list[];
 

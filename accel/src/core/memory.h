@@ -26,10 +26,10 @@ void *accel_memory_system(void *user, void *old, size_t from, size_t to);
 /* Allocates (old NULL), resizes or frees (to 0). NULL if there is none; old is then as before. */
 void *accel_memory_resize(struct memory *m, void *old, size_t from, size_t to);
 
-/* Gives `*at`, an array of `*room` elements of `size` bytes, room for `need` of them. */
+/* Gives `*at`, an array of `*capacity` elements of `size` bytes, room for `need` of them. */
 bool accel_memory_room(struct memory *m, void **at, size_t *capacity, size_t need, size_t size);
 
-/* A growable array: at[0 .. count - 1] are in use, there is room for `room`. Zero is empty. */
+/* A growable array: at[0 .. count - 1] are in use, there is room for `capacity`. Zero is empty. */
 #define ARRAY_OF(type)                                                                             \
     struct {                                                                                       \
         type *at;                                                                                  \

@@ -9,6 +9,8 @@
  */
 #include "hug.h"
 
+#include "../core/kind.h"
+
 #include <string.h>
 
 /* A cell of no more items stays a list (Havran's limit for recursive grids). */
@@ -366,8 +368,6 @@ static void note(const struct builder *b)
                              "%zu of %zu clusters are short: items of the grid around, no grids",
                              lists, clusters);
     accel_grid_note_empty(b->build, pool);
-    if (b->build->a->option[HUG_FORM] == HUG_FORM_PAPER && !isnan(b->build->a->option[HUG_DENSITY]))
-        accel_build_note(b->build, "density is not used: it is for form=density");
     if (b->coarser)
         accel_build_note(b->build,
                          "some grids are coarser than asked for: for memory in proportion, "
@@ -381,6 +381,8 @@ static bool run(struct builder *b)
 {
     struct build *build = b->build;
     const double *option = build->a->option;
+    accel_note_idle_option(build, option[HUG_FORM] == HUG_FORM_PAPER ? HUG_DENSITY : HUG_CELLS,
+                           option[HUG_FORM] == HUG_FORM_PAPER ? "form=paper" : "form=density");
     const struct cluster_rule rule = {option[HUG_CONNECTIVITY], option[HUG_OCTAVES]};
     accel_build_phase(build, "clusters");
     if (!accel_cluster_scene(build, &b->clustering, rule, 0.0, 1.0))

@@ -19,8 +19,8 @@
  * of a box three times as large as the scene's towards random points of that; and from what those
  * hit, rays in random directions: what a path tracer or photon map will ask.
  *
- * Cost: some milliseconds, whatever the scene. Bad at: scenes whose structure a sample does
- * not show; hosts whose later rays are unlike the pilot.
+ * Cost: tens of milliseconds; more where most primitives lie in one place. Bad at: scenes whose
+ * structure a sample does not show; hosts whose later rays are unlike the pilot.
  */
 #include "../core/kind.h"
 #include "../auto/auto_sample.h"
@@ -33,7 +33,7 @@
  * host gives, every so many-th. */
 static const struct round {
     size_t sample, pilot;
-} rounds[] = {{512, 64}, {4096, 256}};
+} rounds[2] = {{512, 64}, {4096, 256}};
 
 /* What takes so many times as long as the best in one round is not in the next. */
 #define HOPELESS 2.0
@@ -63,7 +63,7 @@ struct candidate {
 struct chooser {
     struct build *build;
     const struct round *round; /* under way */
-    size_t last;               /* the number of the last one */
+    bool twice;                /* is there more than the first round's sample? */
     accel_hooks hooks;         /* of the builds over the sample; the chooser is their user */
     struct sample sample;
     double triangles; /* share of the primitives */
@@ -117,7 +117,7 @@ static accel_ray first_ray(const struct chooser *c, size_t i)
 enum { RAYS_A_TICK = 32 };
 
 /* Traces the pilot; fills in the counts. False if the build is cancelled. */
-static bool fly_pilot(struct chooser *c, const accel *a, struct candidate *kind)
+static bool trace_pilot(struct chooser *c, const accel *a, struct candidate *kind)
 {
     accel_query q = {0};
     const size_t count = pilot_count(c);
@@ -259,7 +259,7 @@ static bool try_kind(struct chooser *c, struct candidate *k)
             *c->build->error = error;
         return false;
     }
-    const bool fine = fly_pilot(c, a, k);
+    const bool fine = trace_pilot(c, a, k);
     m->peak = m->bytes + a->memory.peak > m->peak ? m->bytes + a->memory.peak : m->peak;
     accel_free(a);
     k->seconds = predict(c, k);
@@ -293,7 +293,7 @@ static bool try_kinds(struct chooser *c, size_t count)
             c->known[at] = c->known[at - 1];
         c->known[at] = k;
         const double done = (double)(c->round - rounds) + (double)(i + 1) / (double)count;
-        if (!accel_build_tick(c->build, done / (double)(c->last + 1)))
+        if (!accel_build_tick(c->build, done / (c->twice ? 2.0 : 1.0)))
             return false;
     }
     return true;
@@ -310,7 +310,7 @@ static size_t count_hopeful(const struct chooser *c)
 }
 
 /* One round of trying the first `count` kinds. */
-static bool play(struct chooser *c, const struct round *round, size_t count)
+static bool run_round(struct chooser *c, const struct round *round, size_t count)
 {
     c->round = round;
     c->hits = 0.0;
@@ -324,11 +324,11 @@ static bool play(struct chooser *c, const struct round *round, size_t count)
 static bool compare_kinds(struct chooser *c)
 {
     list_kinds(c);
-    c->last = c->build->a->prims.bounded.count > rounds[0].sample;
-    if (!play(c, &rounds[0], c->count))
+    c->twice = c->build->a->prims.bounded.count > rounds[0].sample;
+    if (!run_round(c, &rounds[0], c->count))
         return false;
     const size_t hopeful = count_hopeful(c);
-    return hopeful == 1 || c->last == 0 || play(c, &rounds[1], hopeful);
+    return hopeful == 1 || !c->twice || run_round(c, &rounds[1], hopeful);
 }
 
 /* Rounded to tenths. */
@@ -358,6 +358,13 @@ static void explain(const struct chooser *c)
                      accel_number_text(c->build->a->option[RAYS], 6).at, list);
 }
 
+/* Nanoseconds of testing a primitive, at most: every object's box is met. */
+static double most_of_a_test(const struct chooser *c, const struct accel_kind *linear)
+{
+    return c->triangles * linear->cost.triangle + (1.0 - c->triangles) * linear->cost.other +
+           c->objects * c->call;
+}
+
 static bool choose(struct build *build, const struct accel_kind **kind)
 {
     const struct accel_kind *linear = (const struct accel_kind *)accel_kind_list[0];
@@ -365,7 +372,7 @@ static bool choose(struct build *build, const struct accel_kind **kind)
     struct chooser c = {.build = build, .hits = 0.0};
     *kind = linear;
     weigh_primitives(&c);
-    if (1e-9 * rays * n * linear->cost.triangle < WORTH_CHOOSING) {
+    if (1e-9 * rays * n * most_of_a_test(&c, linear) < WORTH_CHOOSING) {
         accel_build_note(build,
                          "auto: linear; %s rays over %s primitives do not pay for a structure",
                          accel_number_text(rays, 6).at, accel_number_text(n, 6).at);

@@ -156,12 +156,24 @@ static bool build_wide(struct build *build, struct hoo_kind *h)
     return fine;
 }
 
+static void note_idle_options(struct build *build, bool classic)
+{
+    static const size_t of_classic[] = {LEAF, DEPTH, LAZY, PART};
+    if (classic)
+        accel_note_idle_option(build, ISA, "form=classic");
+    for (size_t i = 0; !classic && i < sizeof of_classic / sizeof *of_classic; i++)
+        accel_note_idle_option(build, of_classic[i], "form=wide");
+    if (classic && !(build->a->option[LAZY] > 0))
+        accel_note_idle_option(build, PART, "lazy=off");
+}
+
 static bool build(struct build *build)
 {
     struct hoo_kind *h = (struct hoo_kind *)build->a;
     double *option = h->base.option;
     const bool classic = !isnan(option[LEAF]) || !isnan(option[DEPTH]) || option[LAZY] > 0;
     option[FORM] = wide_form_resolve(option[FORM], classic);
+    note_idle_options(build, option[FORM] == WIDE_FORM_CLASSIC);
     if (option[FORM] == WIDE_FORM_WIDE)
         option[LAZY] = 0;
     return find_clusters(build, h) &&

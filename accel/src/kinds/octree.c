@@ -73,9 +73,13 @@ static bool build(struct build *build)
     double *option = o->base.option;
     const bool classic = !isnan(option[LEAF]) || !isnan(option[DEPTH]) || option[ROOT] != 0;
     option[FORM] = wide_form_resolve(option[FORM], classic);
-    return option[FORM] == WIDE_FORM_CLASSIC
-               ? build_classic(build, o)
-               : accel_wide_form_build(build, &o->wide, &option[ISA], WIDE_BY_OCTANTS, NULL);
+    if (option[FORM] == WIDE_FORM_CLASSIC) {
+        accel_note_idle_option(build, ISA, "form=classic");
+        return build_classic(build, o);
+    }
+    for (size_t i = LEAF; i <= ROOT; i++)
+        accel_note_idle_option(build, i, "form=wide");
+    return accel_wide_form_build(build, &o->wide, &option[ISA], WIDE_BY_OCTANTS, NULL);
 }
 
 static void walk(const accel *a, struct query *q)

@@ -4,7 +4,6 @@
  */
 #include "wide_isa.h"
 
-#include <string.h>
 
 #include "../core/box.h"
 

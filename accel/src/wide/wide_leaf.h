@@ -21,11 +21,13 @@
  * m the largest |x| or |y|: so |sum w x| <= 12 v m^3 / |det|. The computed points hold the origin
  * between them, for the sign of e is right where it is not 0; hence |x| is at most the difference
  * of two of them, and m <= 2 L + 8.1 v D = 2 L + 65 v C. So, in units of v C, |o_x + t d_x - sum w
- * p_x| is at most L >= 4096: 12 * 8.2 from m^3 / |det|, 33 from x - X, 73 from t: 205; L >=  128:
- * 12 * 15.8, 33 and 73: 296; L <   128: m itself, which |sum w x| does not exceed, 321, 33 and 73:
- * 427; and 73 on the major axis, where only t has an error. sum w p_x lies between the vertices,
- * and P' begins 2^-44 C = 512 v C before the first of them, but for v (C + 2^-44 C) by which that
- * is rounded. What the slabs are rounded by, 3 v, is less than the growth of S, 8 v, relatively. An
+ * p_x| is at most
+ * - for L >= 4096: 12 * 8.2 from m^3 / |det|, 33 from x - X, 73 from t: 205;
+ * - for L >= 128: 12 * 15.8, 33 and 73: 296;
+ * - for L < 128: m itself, which |sum w x| does not exceed, 321, 33 and 73: 427;
+ * and 73 on the major axis, where only t has an error. sum w p_x lies between the vertices, and P'
+ * begins 2^-44 C = 512 v C before the first of them, but for v (C + 2^-44 C) by which that is
+ * rounded. What the slabs are rounded by, 3 v, is less than the growth of S, 8 v, relatively. An
  * axis with d = 0 asks the same of o_x itself. Underflow, or flushing to zero, adds at most 2^-1022
  * to any term, and by 2. C is at least 2^-455.
  */

@@ -9,11 +9,12 @@
  *
  * The node's plane is p = P moved out by at least 2.12 u (WIDE_PAD), |p| <= 1 + 3u. cr is 1 / d cut
  * to 24 bits, exactly a float: |cr| = (1 - e0) / |d|, -v <= e0 <= 2u. c = float(-o cr). What is
- * computed is t = p cr + c, by a fused multiplication or by two roundings:
- *     t = (p cr (1 + e1) - o cr (1 + e2)) (1 + e3)             |e1|, |e3| <= u, |e2| <= u (1 +
- * 2^-28) = cr ((p - o) (1 + e2) + p (e1 - e2)) (1 + e3) so an error of p, at most 2.01 u |p|, which
- * the padding is larger than, and relative errors else. With n the near and f the far plane of an
- * axis along which the ray goes up (down: mirrored):
+ * computed is t = p cr + c, by a fused multiplication or by two roundings: with |e1|, |e3| <= u and
+ * |e2| <= u (1 + 2^-28),
+ * - t = (p cr (1 + e1) - o cr (1 + e2)) (1 + e3)
+ * - = cr ((p - o) (1 + e2) + p (e1 - e2)) (1 + e3):
+ * so an error of p, at most 2.01 u |p|, which the padding is larger than, and relative errors else.
+ * With n the near and f the far plane of an axis along which the ray goes up (down: mirrored):
  * - if P_n <= o then p_n - o <= -2.12 u (1 - 2u), and t_n <= 0; tmin is the greater;
  * - if P_n > o then 0 <= t_n <= T_n (1 + v) (1 + 1.01 u) (1 + u), or t_n < 0;
  * - if P_f >= o then t_f >= T_f (1 - 2u) (1 - 1.01 u) (1 - u) > 0.

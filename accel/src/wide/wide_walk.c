@@ -5,7 +5,6 @@
  */
 #include "wide.h"
 
-#include <string.h>
 
 #if defined(__SSE2__)
 #include <xmmintrin.h>

@@ -303,7 +303,7 @@ void Accelerator::TakeObjects(const SceneData& scene)
 			objects.push_back(*i);
 	}
 	lightsLeftOut = scene.objects.size() - objects.size();
-	few = (objects.size() <= 8) && ((config == "") || (config == "auto")) && (verify == false);
+	few = (objects.size() <= MOST_FEW) && ((config == "") || (config.compare(0, 4, "auto") == 0)) && (verify == false);
 	sceneData = &scene;
 
 	Find_Reaches(scene, objects, grazings, reach, nearBoxes);

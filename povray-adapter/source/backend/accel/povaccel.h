@@ -97,6 +97,7 @@ class Accelerator
 		std::string config;
 		/// are there so few objects that testing each takes less time than any structure?
 		bool few;
+		static const size_t MOST_FEW = 8;
 		/// the objects that a ray can hit, in the order of the scene
 		vector<ObjectPtr> objects;
 		/// number of light sources left out, as no ray can hit them

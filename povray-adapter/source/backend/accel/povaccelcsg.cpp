@@ -90,7 +90,7 @@ template<class Places> static void Name_All(Places& places, const vector<ObjectP
 /// Notes a part whose box the ray meets, and reports no hit, so that all others are offered too.
 static void Note_Part(accel_probe *probe)
 {
-	reinterpret_cast<AccelPlaces *>(probe->query->user)->push_back(probe->prim);
+	static_cast<AccelPlaces *>(probe->query->user)->push_back(probe->prim);
 }
 
 void AccelCsg::Build(Level& level) const
@@ -158,14 +158,13 @@ void AccelCsg::FindNear(const Ray& ray, AccelPlaces& near, TraceThreadData *thre
 	if((level != NULL) && (level->structure != NULL))
 	{
 		accel_ray line;
-		accel_hit hit;
 
 		Assign_Vector(line.org, ray.Origin);
 		Assign_Vector(line.dir, ray.Direction);
 		line.tmin = ray.IsSubsurfaceRay() ? -HUGE_VAL : 0.0;
 		line.tmax = HUGE_VAL;
 		line.skip.geom = line.skip.prim = ACCEL_NONE;
-		accel_closest(level->structure, &line, &hit, &query);
+		accel_closest(level->structure, &line, NULL, &query);
 		std::sort(near.begin(), near.end());
 		near.erase(std::unique(near.begin(), near.end()), near.end());
 	}
@@ -180,7 +179,7 @@ void AccelCsg::FindNear(const Ray& ray, AccelPlaces& near, TraceThreadData *thre
 /// The library names in the order of the parts.
 static bool Note_Place(void *user, accel_id id)
 {
-	reinterpret_cast<AccelPlaces *>(user)->push_back(id.prim);
+	static_cast<AccelPlaces *>(user)->push_back(id.prim);
 	return true;
 }
 

@@ -180,8 +180,6 @@ class AccelGrazings
 			return keeps && grazing.IsUseful();
 		}
 
-		bool IsEmpty() const { return kept.empty(); }
-
 		/// Is a ray like that? Those whose direction does not have length 1 count as well.
 		bool Holds(const VECTOR direction) const
 		{
