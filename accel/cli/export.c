@@ -7,6 +7,7 @@
 #include "sdl.h"
 #include "structure.h"
 
+#include <inttypes.h>
 #include <string.h>
 
 enum { FLAG_OUTPUT, FLAG_AS };
@@ -31,6 +32,14 @@ static int write_scene(const struct command *command, const job *job, const acce
     accel_error error;
     if (!sdl_fits(scene, job->form, &error)) {
         return complain(command, "%s: %s; nothing was written", job->scene, error.text);
+    }
+    const uint64_t lost = job->form == SDL_MESH2 ? sdl_lost_as_float(scene) : 0;
+    if (lost != 0) {
+        fprintf(stderr,
+                "accel export: %s: %" PRIu64
+                " triangles have no area once they are rounded to float, "
+                "as POV-Ray's meshes are; --as triangles keeps them\n",
+                job->scene, lost);
     }
     return sdl_write(file, scene, job->form)
                ? EXIT_FINE

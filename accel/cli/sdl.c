@@ -69,6 +69,40 @@ bool sdl_fits(const accel_scene *scene, enum sdl_form form, accel_error *error)
     return scene->count != 0;
 }
 
+static bool same_float(const double a[3], const double b[3])
+{
+    return (float)a[0] == (float)b[0] && (float)a[1] == (float)b[1] && (float)a[2] == (float)b[2];
+}
+
+static bool is_lost_as_float(const accel_triangles *mesh, uint32_t prim)
+{
+    double at[3][3];
+    bool lost = false;
+    for (int corner = 0; corner < 3; corner++) {
+        scene_vertex(mesh, prim, corner, at[corner]);
+    }
+    for (int corner = 0; corner < 3; corner++) {
+        const double *a = at[corner], *b = at[(corner + 1) % 3];
+        if (memcmp(a, b, sizeof at[0]) == 0) {
+            return false;
+        }
+        lost = lost || same_float(a, b);
+    }
+    return lost;
+}
+
+uint64_t sdl_lost_as_float(const accel_scene *scene)
+{
+    uint64_t lost = 0;
+    for (uint32_t i = 0; i < scene->count; i++) {
+        const accel_triangles *mesh = &scene->geometries[i].triangles;
+        for (uint32_t prim = 0; prim < mesh->count; prim++) {
+            lost += is_lost_as_float(mesh, prim);
+        }
+    }
+    return lost;
+}
+
 static int compare_places(const void *a, const void *b)
 {
     const place *p = a, *q = b;

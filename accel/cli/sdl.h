@@ -18,6 +18,9 @@ enum sdl_form {
 /* Says whether `scene` can be written in `form`; otherwise fills error->text with one line. */
 bool sdl_fits(const accel_scene *scene, enum sdl_form form, accel_error *error);
 
+/* How many triangles have corners at three places, but as float no more than two. */
+uint64_t sdl_lost_as_float(const accel_scene *scene);
+
 /* Writes `scene`, which must fit. Returns false where memory runs out; errors of the file stay in
  * the file, for ferror. */
 bool sdl_write(FILE *file, const accel_scene *scene, enum sdl_form form);

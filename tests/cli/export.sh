@@ -70,4 +70,10 @@ complains "none/x.inc" export one.obj -o none/x.inc
 complains "has no triangles" export empty -o x.inc
 expect 2 export one.obj -o /dev/full
 [ "$(wc -l <err)" = 1 ] || fail "a full disk is not told in one line"
+# What float loses is told.
+expect 0 export scale-1e-310 -o tiny.inc
+grep -q 'triangles have no area once they are rounded to float' err || fail "tiny.inc: $(cat err)"
+expect 0 export scale-1e-310 --as triangles -o tiny.inc
+[ ! -s err ] || fail "tiny.inc as triangles: $(cat err)"
+
 finish
