@@ -122,10 +122,8 @@ static inline void end_strand(struct batch *b, const struct strand *s)
     const struct wide_fast *f = &s->f;
     accel_hit hit = wide_no_hit();
     end_fast(f);
-    if (f->id != ACCEL_NONE && b->hits) {
-        const accel_id name = primitives_name(&b->a->prims, f->id);
-        hit = (accel_hit){f->t, f->u, f->v, name.geom, name.prim};
-    }
+    if (f->id != ACCEL_NONE && b->hits)
+        hit = hit_of(f);
     tell(b, s->number, f->id != ACCEL_NONE, &hit);
 }
 

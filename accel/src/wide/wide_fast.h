@@ -232,6 +232,13 @@ walk_any(const accel *a, const struct wide *w, const accel_ray *ray, accel_query
     }
 }
 
+/* The best hit, as the caller sees it. */
+static inline accel_hit hit_of(const struct wide_fast *f)
+{
+    const accel_id name = primitives_name(&f->a->prims, f->id);
+    return (accel_hit){f->t, f->u / f->weights, f->v / f->weights, name.geom, name.prim};
+}
+
 static enum wide_answer closest(const accel *a, const struct wide *w, const accel_ray *ray,
                                 accel_hit *hit, accel_query *counters)
 {
@@ -240,10 +247,8 @@ static enum wide_answer closest(const accel *a, const struct wide *w, const acce
     if (answer == WIDE_ANY_OTHER_WAY)
         return answer;
     end_fast(&f);
-    if (answer == WIDE_HIT && hit) {
-        const accel_id name = primitives_name(&a->prims, f.id);
-        *hit = (accel_hit){f.t, f.u / f.weights, f.v / f.weights, name.geom, name.prim};
-    }
+    if (answer == WIDE_HIT && hit)
+        *hit = hit_of(&f);
     return answer;
 }
 
