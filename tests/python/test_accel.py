@@ -22,11 +22,11 @@ VERTICES = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], float)
 FACES = np.array([[0, 1, 2]], np.uint32)
 
 
-def soup(count, seed=1):
-    """Triangles whose corners share no vertex, in the unit box."""
+def soup(count, size=0.1, seed=1):
+    """Triangles whose corners share no vertex, about the unit box."""
     random = np.random.default_rng(seed)
     middle = random.uniform(0, 1, (count, 1, 3))
-    vertices = (middle + random.uniform(-0.1, 0.1, (count, 3, 3))).reshape(-1, 3)
+    vertices = (middle + random.uniform(-size, size, (count, 3, 3))).reshape(-1, 3)
     return vertices, np.arange(3 * count).reshape(-1, 3)
 
 
@@ -131,7 +131,7 @@ class Answers(unittest.TestCase):
                     self.assertEqual(mine, (*map(int, words[:2]), *map(float, words[2:])))
 
     def test_all_against_numpy(self):
-        vertices, faces = soup(400)
+        vertices, faces = soup(400, 0.5)
         origins, directions = directed(100)
         a, b, c = (vertices[faces[:, k]] for k in range(3))
         with accel.Scene(vertices, faces) as scene:
@@ -164,7 +164,7 @@ class Answers(unittest.TestCase):
 
     def test_points(self):
         random = np.random.default_rng(4)
-        vertices, faces = soup(300)
+        vertices, faces = soup(300, 0.3)
         points = random.uniform(0, 1, (100, 3))
         corners = vertices[faces]
         low, high = corners.min(axis=1), corners.max(axis=1)
