@@ -50,7 +50,7 @@ def compile_library(target):
 class BuildWithLibrary(build_py):
     def run(self):
         super().run()
-        base = HERE if getattr(self, "editable_mode", False) else pathlib.Path(self.build_lib)
+        base = HERE / "src" if getattr(self, "editable_mode", False) else pathlib.Path(self.build_lib)
         target = base / "accel" / "libaccel.so"
         target.parent.mkdir(parents=True, exist_ok=True)
         compile_library(target)

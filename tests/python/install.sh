@@ -36,7 +36,7 @@ done
 # A copy without what an editable install or a build by hand has left there.
 mkdir "$work/source"
 cp -a "$here/../../accel" "$work/source/"
-rm -rf "$work/source/accel/python/accel/libaccel.so"
+rm -rf "$work/source/accel/python/src/accel/libaccel.so"
 (cd "$work/source" && find . -not -path '*/__pycache__*' | sort) >"$work/before"
 
 quietly "venv" "$python" -m venv --system-site-packages "$work/venv"

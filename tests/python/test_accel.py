@@ -266,7 +266,8 @@ class Arrays(unittest.TestCase):
         self.refused(r"faces: the shape is \(1, 4\)", accel.Scene, VERTICES, [[0, 1, 2, 0]])
         self.refused("faces: the dtype is float64", accel.Scene, VERTICES, FACES * 1.0)
         self.refused("faces: indices from -1", accel.Scene, VERTICES, [[0, 1, -1]])
-        self.refused("faces: indices from 0 to 4294967298", accel.Scene, VERTICES, [[0, 1, 2**32 + 2]])
+        self.refused("faces: indices from 0 to 4294967298", accel.Scene, VERTICES,
+                     [[0, 1, 2**32 + 2]])
         self.refused(r"radii: the shape is \(2,\)", accel.Spheres, VERTICES, [1, 2])
         self.refused("int is no geometry", accel.Accelerator, 3)
         with accel.Scene(VERTICES, FACES) as scene:
@@ -409,6 +410,19 @@ class Library(unittest.TestCase):
             found = run("import accel", ACCEL_LIBRARY=path)
             self.assertEqual(found.returncode, 1)
             self.assertIn(f"ImportError: accel: {text}", found.stderr)
+
+    def test_bench(self):
+        script = pathlib.Path(__file__).parents[2] / "accel" / "python" / "bench.py"
+        with tempfile.TemporaryDirectory() as folder:
+            mesh = pathlib.Path(folder) / "mesh.off"
+            mesh.write_text("OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n"
+                            "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n")
+            found = subprocess.run([sys.executable, script, mesh, "bvh", "-n", "100", "--repeats",
+                                    "1", "--command", os.environ["ACCEL_TEST_COMMAND"]],
+                                   capture_output=True, text=True)
+        self.assertEqual((found.returncode, found.stderr), (0, ""))
+        self.assertEqual(found.stdout.count("ns a ray\n"), 5)
+        self.assertIn("bounce", found.stdout)
 
 
 if __name__ == "__main__":
