@@ -154,6 +154,19 @@ class Answers(unittest.TestCase):
             np.testing.assert_allclose(mine["t"], np.sort(t[inside]), rtol=1e-9, atol=1e-12)
             np.testing.assert_allclose(where[index == i], o + mine["t"][:, None] * d)
 
+    def test_many_rays(self):
+        rays = accel.rays(*directed(150000))
+        with accel.Scene(*soup(50)) as scene:
+            hits, hit = scene.closest(rays), scene.any(rays)
+            parts = [scene.closest(rays[i:i + 1000]) for i in range(0, len(rays), 1000)]
+        self.assertEqual(hits.tobytes(), np.concatenate(parts).tobytes())
+        np.testing.assert_array_equal(hit, hits["t"] < np.inf)
+
+    def test_pilot(self):
+        rays = accel.rays(*directed(300))
+        with accel.Scene(*soup(1000), pilot=rays) as scene:
+            self.assertIn("pilot of 256", " ".join(scene.describe()["notes"]))
+
     def test_spheres(self):
         for spheres in (accel.Spheres([[0, 0, 0], [0, 0, 5]], [1, 2]), accel.Spheres(
                 [[0, 0, 0, 1], [0, 0, 5, 2]])):
