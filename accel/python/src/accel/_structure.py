@@ -134,7 +134,7 @@ class Accelerator:
         An array of RAY alone is taken as it is. Origins and directions are broadcast: one origin
         serves many directions."""
         rays = take_rays(origins, directions, tmin, tmax, skip)
-        hits = np.zeros(rays.shape, c.HIT)  # of a miss the library leaves u and v alone
+        hits = np.zeros(rays.shape, c.HIT)  # u, v of a miss: accel.h promises nothing
         return self._batch(c.library.accel_closest_n, rays, hits, counts)
 
     def any(self, origins, directions=None, tmin=0.0, tmax=np.inf, skip=None, counts=None):
