@@ -23,7 +23,8 @@ packages_build=(ca-certificates gcc g++ make cmake pkg-config libassimp-dev libj
     libopenexr-dev libpng-dev librandom123-dev)
 packages_stock=(povray povray-includes)
 packages_fast=(libcmocka-dev locales python3-minimal)
-packages_tests=("${packages_fast[@]}" povray-examples libembree-dev gnuplot-nox libxml2-utils clang)
+packages_tests=("${packages_fast[@]}" povray-examples libembree-dev gnuplot-nox libxml2-utils clang
+    python3-numpy python3-pip python3-setuptools python3-venv python3-wheel)
 
 # What the choice of auto is fitted to and judged by; the last three come by fetch.sh.
 # shellcheck disable=SC2034 # for results.sh and costs.sh
