@@ -50,10 +50,4 @@ static inline double random_in(struct random *random, double lo, double hi)
     return lo + (hi - lo) * random_unit(random);
 }
 
-/* Uniform in 0..count - 1; the bias is below count * 2^-64. */
-static inline uint64_t random_below(struct random *random, uint64_t count)
-{
-    return random_bits(random) % count;
-}
-
 #endif

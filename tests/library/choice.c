@@ -70,7 +70,7 @@ static void pilot_decides_no_answer(void **state)
         scene_make(&s, scene_maker_find(names[i]), test_seed());
         accel *linear = must_build(&s, "linear"), *a;
         const accel_info none = build_auto(&a, &s, "auto", NULL);
-        assert_true(noted(&none, "lines of its own") && !noted(&none, "rays of the host"));
+        assert_true(noted(&none, "random rays") && !noted(&none, "rays of the host"));
         accel_free(a);
         try_pilot(&s, linear, "mix");
         try_pilot(&s, linear, "special");

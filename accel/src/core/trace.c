@@ -130,7 +130,7 @@ bool accel_closest(const accel *a, const accel_ray *ray, accel_hit *hit, accel_q
 {
     if (a && ray && a->fast) {
         const enum wide_answer answer = a->fast->isa->closest(a, a->fast, ray, hit, query);
-        if (answer != WIDE_ANY_OTHER_WAY)
+        if (answer != WIDE_NOT_HANDLED)
             return answer == WIDE_HIT;
     }
     if (!valid(a, ray))
@@ -148,7 +148,7 @@ bool accel_any(const accel *a, const accel_ray *ray, accel_query *query)
 {
     if (a && ray && a->fast) {
         const enum wide_answer answer = a->fast->isa->any(a, a->fast, ray, query);
-        if (answer != WIDE_ANY_OTHER_WAY)
+        if (answer != WIDE_NOT_HANDLED)
             return answer == WIDE_HIT;
     }
     if (!valid(a, ray))

@@ -346,7 +346,7 @@ static void explain(const struct chooser *c)
                      "auto: %s; pilot of %zu %s and what leaves their hits: %s nodes, %s "
                      "tests, %s calls each",
                      best->kind->info.name, pilot_count(c),
-                     given ? "rays of the host" : "lines of its own", tenths(best->nodes).at,
+                     given ? "rays of the host" : "random rays", tenths(best->nodes).at,
                      tenths(best->tests).at, tenths(best->calls).at);
     char list[160];
     int used = 0;

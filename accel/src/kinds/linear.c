@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * linear: the judge. Tests every primitive in order; holds nothing.
+ * linear: the reference. Tests every primitive in order; holds nothing.
  *
  * Cost: one test per primitive and ray. Bad at everything but being right: it shares with the other
  * kinds only the tests of single primitives (query.c).
@@ -34,7 +34,8 @@ static void release(accel *a)
 }
 
 const struct accel_kind accel_linear_kind = {
-    .info = {.name = "linear", .summary = "no structure: tests every primitive; judges the others"},
+    .info = {.name = "linear",
+             .summary = "no structure: tests every primitive; the reference of the others"},
     .cost = COST_LINEAR,
     .size = sizeof(accel),
     .build = build,

@@ -63,7 +63,7 @@ struct wide_block {
     uint8_t type, count, vertices;
     uint8_t last;     /* the leaf ends here */
     uint32_t size;    /* bytes to the next block */
-    float least_det;  /* triangles, see wide_leaf.h: smaller determinants go the whole way */
+    float least_det;  /* triangles with a smaller determinant take the general test: wide_leaf.h */
     float far_origin; /* so do rays from farther away than this, to triangles and spheres */
 };
 

@@ -48,7 +48,7 @@ struct batch {
 };
 
 /* A node whole, or most leaves: how large a leaf is, its first bytes say. */
-static inline void expect_all(const struct wide *w, uint32_t word)
+static inline void prefetch_all(const struct wide *w, uint32_t word)
 {
     const unsigned char *at = w->base + 16 * (size_t)(word & ~WIDE_LEAF);
     const size_t bytes = word & WIDE_LEAF ? 256 : sizeof(struct wide_node);
@@ -67,7 +67,7 @@ static inline bool step_closest(const struct wide *w, struct strand *s)
         s->f.nodes++;
         if (meets != 0) {
             s->word = descend(w, node, meets, &begin, &s->top);
-            expect_all(w, s->word);
+            prefetch_all(w, s->word);
             return true;
         }
     } else if (test_blocks(&s->f, wide_leaf_at(w, s->word), false)) {
@@ -78,7 +78,7 @@ static inline bool step_closest(const struct wide *w, struct strand *s)
             return false;
         s->word = (uint32_t) * --s->top;
     } while (*s->top >> 32 > bits_of(s->limit));
-    expect_all(w, s->word);
+    prefetch_all(w, s->word);
     return true;
 }
 
@@ -95,7 +95,7 @@ static inline bool step_any(const struct wide *w, struct strand *s)
             const uint32_t last = 31 - (uint32_t)__builtin_clz(meets);
             s->word = node->child[last];
             s->words = push_children(s->words, meets ^ 1u << last, node);
-            expect_all(w, s->word);
+            prefetch_all(w, s->word);
             return true;
         }
     } else if (test_blocks(&s->f, wide_leaf_at(w, s->word), true)) {
@@ -104,7 +104,7 @@ static inline bool step_any(const struct wide *w, struct strand *s)
     s->word = *--s->words;
     if ((void *)s->words == (void *)s->stack)
         return false;
-    expect_all(w, s->word);
+    prefetch_all(w, s->word);
     return true;
 }
 

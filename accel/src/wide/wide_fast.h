@@ -54,8 +54,8 @@ static inline void sort_waiting(waiting *bottom, const waiting *top)
     }
 }
 
-/* What is visited soon had better be on its way from memory. */
-static inline void expect(const struct wide *w, uint32_t word)
+/* Asks for the memory of what is visited soon. */
+static inline void prefetch(const struct wide *w, uint32_t word)
 {
     const unsigned char *at = w->base + 16 * (size_t)(word & ~WIDE_LEAF);
     __builtin_prefetch(at);
@@ -70,13 +70,13 @@ __attribute__((always_inline)) static inline uint32_t descend(const struct wide 
 {
     _Alignas(64) uint32_t begin[WIDE];
     uint32_t i = next_child(&meets);
-    expect(w, node->child[i]);
+    prefetch(w, node->child[i]);
     if (meets == 0)
         return node->child[i];
     begins_store(where, begin);
     waiting near = waiting_of(begin[i], node->child[i]);
     i = next_child(&meets);
-    expect(w, node->child[i]);
+    prefetch(w, node->child[i]);
     waiting far = waiting_of(begin[i], node->child[i]);
     order(&near, &far);
     if (meets == 0) {
@@ -84,7 +84,7 @@ __attribute__((always_inline)) static inline uint32_t descend(const struct wide 
         return (uint32_t)near;
     }
     i = next_child(&meets);
-    expect(w, node->child[i]);
+    prefetch(w, node->child[i]);
     waiting farthest = waiting_of(begin[i], node->child[i]);
     order(&far, &farthest);
     order(&near, &far);
@@ -99,7 +99,7 @@ __attribute__((always_inline)) static inline uint32_t descend(const struct wide 
     *top += 3;
     while (meets != 0) {
         i = next_child(&meets);
-        expect(w, node->child[i]);
+        prefetch(w, node->child[i]);
         *(*top)++ = waiting_of(begin[i], node->child[i]);
     }
     sort_waiting(bottom, *top);
@@ -168,7 +168,7 @@ walk_closest(const accel *a, const struct wide *w, const accel_ray *ray, accel_q
 {
     waiting stack[WIDE_MAX_DEPTH * (WIDE - 1) + 2], *top = stack;
     if (!begin_fast(f, a, w, ray, counters, false))
-        return WIDE_ANY_OTHER_WAY;
+        return WIDE_NOT_HANDLED;
     float limit = wide_limit(&f->ray, f->best < f->tmax ? f->best : f->tmax);
     struct node_ray n = node_ray_from(&f->ray, limit);
     uint32_t word = w->root;
@@ -196,7 +196,7 @@ walk_closest(const accel *a, const struct wide *w, const accel_ray *ray, accel_q
 }
 
 /* Any hit: no order but that of the children, whose last one is taken first; the limit stays. At
- * the bottom of the stack lies a word that is never taken, so that there is always one to expect.
+ * the bottom of the stack lies a word that is never taken, so that there is always one to fetch.
  */
 __attribute__((always_inline)) static inline enum wide_answer
 walk_any(const accel *a, const struct wide *w, const accel_ray *ray, accel_query *counters,
@@ -204,7 +204,7 @@ walk_any(const accel *a, const struct wide *w, const accel_ray *ray, accel_query
 {
     uint32_t stack[WIDE_MAX_DEPTH * (WIDE - 1) + WIDE + 1], *top = stack, word = w->root;
     if (!begin_fast(f, a, w, ray, counters, true))
-        return WIDE_ANY_OTHER_WAY;
+        return WIDE_NOT_HANDLED;
     if (__builtin_expect(f->id != ACCEL_NONE, 0))
         return WIDE_HIT;
     const struct node_ray n = node_ray_from(&f->ray, wide_limit(&f->ray, f->tmax));
@@ -219,9 +219,9 @@ walk_any(const accel *a, const struct wide *w, const accel_ray *ray, accel_query
                 goto next;
             const uint32_t last = 31 - (uint32_t)__builtin_clz(meets);
             word = node->child[last];
-            expect(w, word);
+            prefetch(w, word);
             top = push_children(top, meets ^ 1u << last, node);
-            expect(w, top[-1]);
+            prefetch(w, top[-1]);
         }
         if (test_blocks(f, wide_leaf_at(w, word), true))
             return WIDE_HIT;
@@ -244,7 +244,7 @@ static enum wide_answer closest(const accel *a, const struct wide *w, const acce
 {
     struct wide_fast f;
     const enum wide_answer answer = walk_closest(a, w, ray, counters, &f);
-    if (answer == WIDE_ANY_OTHER_WAY)
+    if (answer == WIDE_NOT_HANDLED)
         return answer;
     end_fast(&f);
     if (answer == WIDE_HIT && hit)
@@ -257,7 +257,7 @@ static enum wide_answer any(const accel *a, const struct wide *w, const accel_ra
 {
     struct wide_fast f;
     const enum wide_answer answer = walk_any(a, w, ray, counters, &f);
-    if (answer != WIDE_ANY_OTHER_WAY)
+    if (answer != WIDE_NOT_HANDLED)
         end_fast(&f);
     return answer;
 }

@@ -20,7 +20,7 @@ const struct wide_isa *const accel_wide_isas[] = {
 #endif
     &accel_wide_portable, NULL};
 
-/* The query that goes the whole way, with the best hit so far. */
+/* The query of the general test (query.h), with the best hit so far. */
 static struct query *prepare(struct wide_fast *f)
 {
     struct query *q = &f->q;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The seam for instruction sets: what a wide tree is walked by, compiled once for each set from
+ * The interface of instruction sets: what a wide tree is walked by, compiled once for each set from
  * wide_fast.h, and chosen when a structure is built.
  */
 #ifndef ACCEL_WIDE_ISA_H
@@ -13,7 +13,7 @@
 enum wide_answer {
     WIDE_MISSED,
     WIDE_HIT,
-    WIDE_ANY_OTHER_WAY /* the ray is not one for this walk; nothing was done */
+    WIDE_NOT_HANDLED /* the ray is not one for this walk; nothing was done */
 };
 
 /* What batches tell of a ray that hits nothing. */
@@ -69,7 +69,7 @@ struct wide_fast {
     bool prepared;        /* q is */
     uint64_t nodes, tests;
     accel_query *counters; /* the caller's, or NULL */
-    struct query q;        /* for what goes the whole way */
+    struct query q;        /* for what takes the general test */
     struct found found;    /* its one hit */
 };
 
