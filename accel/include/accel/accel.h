@@ -445,8 +445,8 @@ ACCEL_API bool accel_any(const accel *a, const accel_ray *ray, accel_query *quer
 
 /* The same for `count` rays that stand side by side. Answers, counts and refusals are those of one
  * ray after the other, bit for bit; returns how many rays hit. hits[i] is of rays[i], and where
- * that hits nothing its geom and prim are ACCEL_NONE, its t is INFINITY; flags[i] says whether it
- * hits. Either array has room for `count`, belongs to the caller, does not overlap the rays, and
+ * that hits nothing its geom and prim are ACCEL_NONE, t is INFINITY, u and v are 0; flags[i] says
+ * whether it hits. Either array has room for `count`, belongs to the caller, does not overlap the rays, and
  * may be NULL; so may everything where `count` is 0.
  *
  * Where a structure of the wide form is larger than a cache, several rays are under way at a time,
