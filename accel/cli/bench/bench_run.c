@@ -67,9 +67,9 @@ static bool judge_structure(struct bench *b, struct bench_contender *c, int s, c
     size_t asked = 0;
     for (size_t i = 0; i < set->count; i += step, asked++) {
         accel_hit hit;
-        const bool found = accel_closest(a, &set->rays[i], &hit, &query);
+        const bool found = accel_closest(a, &set->rays[i], &hit, set->any ? NULL : &query);
         if (!same(set, i, found, &hit) ||
-            (set->any && accel_any(a, &set->rays[i], NULL) != found)) {
+            (set->any && accel_any(a, &set->rays[i], &query) != found)) {
             return report(b, c != NULL ? c->name : "linear", set, i);
         }
     }
