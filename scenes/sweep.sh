@@ -95,6 +95,8 @@ measure() {
 parse_arguments "$@"
 mkdir -p "$build/sweep"
 cd "$build/sweep"
+exec {lock}>lock
+flock -n "$lock" || die "another scenes/sweep.sh writes to build/sweep; nothing was timed"
 count=0
 : >rows
 for item in "${scenes[@]}"; do
