@@ -34,7 +34,7 @@ static struct query *prepare(struct wide_fast *f)
     q->count = f->id != ACCEL_NONE;
     q->limit = f->best;
     q->end = f->id;
-    f->found = (struct found){f->best, f->t, f->u / f->weights, f->v / f->weights, f->id};
+    f->found = (struct found){f->best, f->t, 0.0, 0.0, f->id}; /* take_over keeps u and v */
     return q;
 }
 

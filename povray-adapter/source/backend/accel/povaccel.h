@@ -124,8 +124,8 @@ class Accelerator
 			Part() : structure(NULL), built(false), queries(0) { }
 		};
 
-		/// boxes for the first part, until it is built
-		vector<accel_box> nearBoxes;
+		/// for the first part, until it is built: boxes, and what Find_Insides says
+		vector<accel_box> nearBoxes, insides;
 		/// rays along directions for which leaf tests may be wrong by much
 		AccelGrazings grazings;
 		/// for most rays, for rays from farther and farther away, and for grazing ones, each built when the first one comes

@@ -84,6 +84,20 @@ static vector<const ObjectBase *> Lit_Parts(const CompoundObject& compound)
 	return parts;
 }
 
+static void Boxes_Of_Parts(const vector<AccelBounds>& bounds, const VECTOR slack, bool common, const AccelReach& reach, vector<accel_box>& boxes, vector<uint32_t>& always);
+
+/// Hands out the boxes of an object's parts, if somebody wants them.
+static void Show_Parts(const CompoundObject& compound, bool common, const vector<AccelBounds>& parts, const AccelBounds& together, const AccelReach& reach)
+{
+	vector<accel_box> boxes;
+	vector<uint32_t> always;
+
+	if((reach.observer == NULL) || (reach.observer->Wants(compound) == false) || (parts.size() < compound.children.size()))
+		return;
+	Boxes_Of_Parts(parts, together.slack, common, reach, boxes, always);
+	reach.observer->See(compound, together.hits.Box(), boxes, always);
+}
+
 static void Find_Bounds_Of_Parts(const vector<const ObjectBase *>& objects, const AccelReach& reach, vector<AccelBounds>& parts, AccelBounds& bounds)
 {
 	parts.resize(objects.size());
@@ -169,6 +183,7 @@ static void Bound_Union(const CompoundObject& compound, const AccelReach& reach,
 		Include_Box(hits, region.Box());
 	}
 	bounds.hits = AccelRegion(hits);
+	Show_Parts(compound, false, parts, bounds, reach);
 }
 
 /// A hit on a part whose hits lie in the region of its inside lies in that of all parts.
@@ -197,6 +212,7 @@ static void Bound_Intersection(const CompoundObject& compound, const AccelReach&
 		Include_Box(hits, region.Box());
 	}
 	bounds.hits = AccelRegion(hits);
+	Show_Parts(compound, true, parts, bounds, reach);
 }
 
 /// Without the clips of the object itself.
@@ -268,39 +284,44 @@ vector<accel_box> Find_Boxes(const vector<ObjectPtr>& objects, const AccelReach&
  * intersection, a point that is outside of one of those is settled by it, and a hit
  * there does not count; so the boxes of the others need not reach beyond.
  */
-void Find_Part_Boxes(const vector<ObjectPtr>& parts, bool common, const AccelReach& reach, vector<accel_box>& boxes, vector<uint32_t>& always)
+static void Boxes_Of_Parts(const vector<AccelBounds>& bounds, const VECTOR slack, bool common, const AccelReach& reach, vector<accel_box>& boxes, vector<uint32_t>& always)
 {
-	const vector<const ObjectBase *> objects(parts.begin(), parts.end());
-	vector<AccelBounds> bounds;
-	AccelBounds together;
 	AccelRegion within;
 
-	Find_Bounds_Of_Parts(objects, reach, bounds, together);
-	for(size_t i = 0; i < parts.size(); i++)
+	for(size_t i = 0; i < bounds.size(); i++)
 	{
-		const accel_box hits = bounds[i].hits.Box(), side = (common ? bounds[i].outside : bounds[i].inside).Box();
-
-		boxes.push_back(hits);
-		Include_Box(boxes[i], side);
-		if(Is_Dark_Light(parts[i]))
-			boxes[i] = Empty_Box();
-		else if(!Is_Finite(boxes[i]) && !Is_Empty(boxes[i]))
+		boxes.push_back(bounds[i].hits.Box());
+		Include_Box(boxes[i], (common ? bounds[i].outside : bounds[i].inside).Box());
+		if(!Is_Finite(boxes[i]) && !Is_Empty(boxes[i]))
 		{
 			always.push_back(i);
 			boxes[i] = Empty_Box();
 			if(common)
-				within.Intersect(As_Tested(bounds[i].inside, together.slack, reach));
+				within.Intersect(As_Tested(bounds[i].inside, slack, reach));
 		}
 	}
 
 	const accel_box limit = within.Box();
 
-	for(size_t i = 0; i < parts.size(); i++)
+	for(size_t i = 0; i < bounds.size(); i++)
 	{
 		Intersect_Box(boxes[i], limit);
-		if(Is_Dark_Light(parts[i]) == false)
-			Include_Box(boxes[i], bounds[i].strays);
+		Include_Box(boxes[i], bounds[i].strays);
 	}
+}
+
+void Find_Part_Boxes(const vector<ObjectPtr>& parts, bool common, const AccelReach& reach, vector<accel_box>& boxes, vector<uint32_t>& always)
+{
+	vector<AccelBounds> bounds;
+	AccelBounds together;
+
+	Find_Bounds_Of_Parts(vector<const ObjectBase *>(parts.begin(), parts.end()), reach, bounds, together);
+	for(size_t i = 0; i < parts.size(); i++)
+	{
+		if(Is_Dark_Light(parts[i]))
+			bounds[i].hits = bounds[i].inside = bounds[i].outside = AccelRegion(Empty_Box());
+	}
+	Boxes_Of_Parts(bounds, together.slack, common, reach, boxes, always);
 }
 
 /// POV-Ray's own box of an object, as far as points may be taken to lie in it.
@@ -321,21 +342,30 @@ static accel_box Box_Of_Stock(const ObjectBase *object)
 	return box;
 }
 
-vector<uint32_t> Objects_Beyond_Boxes(const vector<ObjectPtr>& objects, const vector<accel_box>& boxes, const AccelReach& reach,
+vector<accel_box> Find_Insides(const vector<ObjectPtr>& objects, const AccelReach& reach)
+{
+	vector<accel_box> boxes(objects.size());
+
+	for(size_t i = 0; i < objects.size(); i++)
+	{
+		AccelBounds bounds;
+
+		if((objects[i]->interior != NULL) || (dynamic_cast<const CompoundObject *>(objects[i]) != NULL))
+			Find_Own_Bounds(objects[i], reach, bounds);
+		boxes[i] = (objects[i]->interior != NULL) ? bounds.inside.Box() : Empty_Box();
+	}
+
+	return boxes;
+}
+
+vector<uint32_t> Objects_Beyond_Boxes(const vector<ObjectPtr>& objects, const vector<accel_box>& boxes, const vector<accel_box>& insides,
                                       AccelContainerSearch search)
 {
 	vector<uint32_t> beyond;
 
 	for(size_t i = 0; i < objects.size(); i++)
 	{
-		if(objects[i]->interior == NULL)
-			continue;
-
-		AccelBounds bounds;
-
-		Find_Own_Bounds(objects[i], reach, bounds);
-
-		accel_box box = bounds.inside.Box();
+		accel_box box = insides[i];
 
 		if(search == ACCEL_OF_CAMERA_RAYS)
 			Intersect_Box(box, Box_Of_Stock(objects[i]));

@@ -49,8 +49,12 @@ void Find_Part_Boxes(const vector<ObjectPtr>& parts, bool common, const AccelRea
 /// Is there nothing that a ray can hit or a point can be in? So it is with light sources without looks_like.
 bool Is_Dark_Light(const ObjectBase *object);
 
-/// The objects with an interior that a point outside their box for this reach may be in, as far as a container search tells.
-vector<uint32_t> Objects_Beyond_Boxes(const vector<ObjectPtr>& objects, const vector<accel_box>& boxes, const AccelReach& reach,
+/// A box for each object with an interior that holds the points inside it, without its clips; an empty one for the others. The
+/// observer of `reach` sees the CSG objects among these objects and their parts.
+vector<accel_box> Find_Insides(const vector<ObjectPtr>& objects, const AccelReach& reach);
+
+/// The objects with an interior that a point outside their box may be in, as far as a container search tells.
+vector<uint32_t> Objects_Beyond_Boxes(const vector<ObjectPtr>& objects, const vector<accel_box>& boxes, const vector<accel_box>& insides,
                                       AccelContainerSearch search);
 
 }

@@ -44,6 +44,12 @@ AccelCsg::AccelCsg(CompoundObject& o, AccelOperation op, const AccelReach& reach
 	levels[FAR].reach = reach;
 }
 
+AccelCsg::AccelCsg(CompoundObject& o, AccelOperation op, const AccelReach& reach, const AccelFewParts& f) :
+	object(o), parts(o.children), operation(op), few(f), measured(true)
+{
+	levels[FAR].reach = reach;
+}
+
 AccelCsg::~AccelCsg()
 {
 	for(int i = 0; i < LEVELS; i++)
@@ -52,7 +58,7 @@ AccelCsg::~AccelCsg()
 
 size_t AccelCsg::Bytes() const
 {
-	size_t bytes = 0;
+	size_t bytes = few.Bytes();
 
 	for(int i = 0; i < LEVELS; i++)
 	{
@@ -220,24 +226,36 @@ static bool May_Be_Seen(const Ray& ray, const ObjectBase *part, bool shadow)
 	       (!Test_Flag(part, NO_RADIOSITY_FLAG) || !ray.IsRadiosityRay());
 }
 
+/// Do all hits at a point that another part has there not count?
+bool AccelCsg::Hides(uint32_t place, const VECTOR point, const Ray& ray, TraceThreadData *thread) const
+{
+	if(operation == ACCEL_INTERSECTION)
+		return Inside_Object(point, parts[place], thread) == false;
+
+	return May_Be_Seen(ray, parts[place], true) && Inside_Object(point, parts[place], thread);
+}
+
 /// Does a hit of the part at that place count, as far as the other parts tell?
 bool AccelCsg::IsSurface(const VECTOR point, uint32_t place, const Ray& ray, TraceThreadData *thread) const
 {
-	AccelPlaces near;
-
 	if(operation == ACCEL_UNION)
 		return true;
+	if(IsOfFew())
+	{
+		for(uint32_t near = few.Near(point) & ~(1u << place); near != 0; near &= near - 1)
+		{
+			if(Hides(__builtin_ctz(near), point, ray, thread))
+				return false;
+		}
+		return true;
+	}
+
+	AccelPlaces near;
+
 	FindNear(point, near);
 	for(AccelPlaces::const_iterator i = near.begin(); i != near.end(); i++)
 	{
-		if(*i == place)
-			continue;
-		if(operation == ACCEL_INTERSECTION)
-		{
-			if(Inside_Object(point, parts[*i], thread) == false)
-				return false;
-		}
-		else if(May_Be_Seen(ray, parts[*i], true) && Inside_Object(point, parts[*i], thread))
+		if((*i != place) && Hides(*i, point, ray, thread))
 			return false;
 	}
 
@@ -273,10 +291,26 @@ bool AccelCsg::AddHits(uint32_t place, const Ray& ray, IStack& local, IStack& de
 	return found;
 }
 
-bool AccelCsg::AllIntersections(const Ray& ray, IStack& depths, TraceThreadData *thread) const
+/// Adds the hits of the parts whose bits are set.
+bool AccelCsg::AddHitsOfFew(uint32_t near, const Ray& ray, IStack& depths, TraceThreadData *thread) const
 {
-	static const IntStatsIndex tests[] = { Ray_CSG_Union_Tests, Ray_CSG_Merge_Tests, Ray_CSG_Intersection_Tests };
-	static const IntStatsIndex successes[] = { Ray_CSG_Union_Tests_Succeeded, Ray_CSG_Merge_Tests_Succeeded, Ray_CSG_Intersection_Tests_Succeeded };
+	bool found = false;
+
+	thread->Stats()[Accel_Csg_Queries]++;
+	thread->Stats()[Accel_Csg_Parts_Passed_Over] += parts.size() - __builtin_popcount(near);
+	if(near == 0)
+		return false;
+
+	IStack local(thread->stackPool);
+
+	for( ; near != 0; near &= near - 1)
+		found = AddHits(__builtin_ctz(near), ray, local, depths, thread) || found;
+
+	return found;
+}
+
+bool AccelCsg::AddHitsOfMany(const Ray& ray, IStack& depths, TraceThreadData *thread) const
+{
 	AccelPlaces near;
 	IStack local(thread->stackPool);
 	bool found = false;
@@ -284,6 +318,20 @@ bool AccelCsg::AllIntersections(const Ray& ray, IStack& depths, TraceThreadData 
 	FindNear(ray, near, thread);
 	for(AccelPlaces::const_iterator place = near.begin(); place != near.end(); place++)
 		found = AddHits(*place, ray, local, depths, thread) || found;
+
+	return found;
+}
+
+bool AccelCsg::AllIntersections(const Ray& ray, IStack& depths, TraceThreadData *thread) const
+{
+	static const IntStatsIndex tests[] = { Ray_CSG_Union_Tests, Ray_CSG_Merge_Tests, Ray_CSG_Intersection_Tests };
+	static const IntStatsIndex successes[] = { Ray_CSG_Union_Tests_Succeeded, Ray_CSG_Merge_Tests_Succeeded, Ray_CSG_Intersection_Tests_Succeeded };
+	bool found;
+
+	if(IsOfFew())
+		found = AddHitsOfFew(levels[FAR].reach.LeavesOut(ray.Direction) ? few.All() : few.Near(ray), ray, depths, thread);
+	else
+		found = AddHitsOfMany(ray, depths, thread);
 	thread->Stats()[tests[operation]]++;
 	if(found)
 		thread->Stats()[successes[operation]]++;
@@ -294,6 +342,17 @@ bool AccelCsg::AllIntersections(const Ray& ray, IStack& depths, TraceThreadData 
 bool AccelCsg::Inside(const VECTOR point, TraceThreadData *thread) const
 {
 	const bool settled = (operation != ACCEL_INTERSECTION); // by one part that the point is inside of, or else outside
+
+	if(IsOfFew())
+	{
+		for(uint32_t near = few.Near(point); near != 0; near &= near - 1)
+		{
+			if(Inside_Object(point, parts[__builtin_ctz(near)], thread) == settled)
+				return settled;
+		}
+		return !settled;
+	}
+
 	AccelPlaces near;
 
 	FindNear(point, near);
@@ -314,41 +373,64 @@ bool AccelCsg::Inside(const VECTOR point, TraceThreadData *thread) const
  *
  *****************************************************************************/
 
-static void Take_Object(ObjectPtr object, const AccelReach& reach, std::set<ObjectPtr>& seen, vector<AccelCsg *>& taken);
-
-static void Take_Objects(const vector<ObjectPtr>& objects, const AccelReach& reach, std::set<ObjectPtr>& seen, vector<AccelCsg *>& taken)
+/// Goes through objects, which may be shared, and what they consist of.
+class AccelCsgTaker
 {
-	for(vector<ObjectPtr>::const_iterator i = objects.begin(); i != objects.end(); i++)
-		Take_Object(*i, reach, seen, taken);
-}
+	public:
+		AccelCsgTaker(const AccelReach& r, const AccelReach& n, const AccelFewBoxes& b, vector<AccelCsg *>& t) :
+			reach(r), near(n), boxes(b), taken(t) { }
 
-static void Take_Object(ObjectPtr object, const AccelReach& reach, std::set<ObjectPtr>& seen, vector<AccelCsg *>& taken)
+		void TakeAll(const vector<ObjectPtr>& objects)
+		{
+			for(vector<ObjectPtr>::const_iterator i = objects.begin(); i != objects.end(); i++)
+				Take(*i);
+		}
+	private:
+		const AccelReach& reach;
+		const AccelReach& near;
+		const AccelFewBoxes& boxes;
+		vector<AccelCsg *>& taken;
+		std::set<ObjectPtr> seen;
+
+		void Take(ObjectPtr object);
+		void TakeCsg(CSG& csg);
+};
+
+void AccelCsgTaker::Take(ObjectPtr object)
 {
 	CompoundObject *compound = dynamic_cast<CompoundObject *>(object);
 	CSG *csg = dynamic_cast<CSG *>(object);
 
-	// bounds and clips may be shared
 	if(seen.insert(object).second == false)
 		return;
-	Take_Objects(object->Bound, reach, seen, taken);
-	Take_Objects(object->Clip, reach, seen, taken);
+	TakeAll(object->Bound);
+	TakeAll(object->Clip);
 	if(compound != NULL)
-		Take_Objects(compound->children, reach, seen, taken);
-	if((csg != NULL) && (csg->children.size() >= AccelCsg::FEWEST_PARTS))
-	{
-		const bool common = (dynamic_cast<CSGIntersection *>(csg) != NULL);
-		const bool merged = (dynamic_cast<CSGMerge *>(csg) != NULL);
-
-		csg->accelerated = new AccelCsg(*csg, common ? ACCEL_INTERSECTION : merged ? ACCEL_MERGE : ACCEL_UNION, reach);
-		taken.push_back(csg->accelerated);
-	}
+		TakeAll(compound->children);
+	if(csg != NULL)
+		TakeCsg(*csg);
 }
 
-void Accel_Take_Csg(const vector<ObjectPtr>& objects, const AccelReach& reach, vector<AccelCsg *>& taken)
+void AccelCsgTaker::TakeCsg(CSG& csg)
 {
-	std::set<ObjectPtr> seen;
+	const bool common = (dynamic_cast<CSGIntersection *>(&csg) != NULL);
+	const bool merged = (dynamic_cast<CSGMerge *>(&csg) != NULL);
+	const AccelOperation operation = common ? ACCEL_INTERSECTION : merged ? ACCEL_MERGE : ACCEL_UNION;
+	const AccelFewParts *few = boxes.Of(csg);
 
-	Take_Objects(objects, reach, seen, taken);
+	if(csg.children.size() >= AccelCsg::FEWEST_PARTS)
+		csg.accelerated = new AccelCsg(csg, operation, reach);
+	else if(few != NULL)
+		csg.accelerated = new AccelCsg(csg, operation, near, *few);
+	else
+		return;
+	taken.push_back(csg.accelerated);
+}
+
+void Accel_Take_Csg(const vector<ObjectPtr>& objects, const AccelReach& reach, const AccelReach& near, const AccelFewBoxes& boxes,
+                    vector<AccelCsg *>& taken)
+{
+	AccelCsgTaker(reach, near, boxes, taken).TakeAll(objects);
 }
 
 }

@@ -19,6 +19,7 @@
 
 #include "backend/frame.h"
 #include "backend/accel/accel.h"
+#include "backend/accel/povaccelfew.h"
 #include "backend/accel/povaccelframe.h"
 #include "backend/scene/objects.h"
 
@@ -35,17 +36,20 @@ typedef boost::container::small_vector<uint32_t, 64> AccelPlaces;
  * Answers as the functions of csg.cpp do, whose loops it runs over the parts that a
  * ray or point is near, in the same order: a part whose box of hits the ray misses
  * has no hit, and to be inside (for an intersection: outside) of a part, a point has
- * to lie in its box of that side. The structure is built when the first ray or point
- * comes, and shared by all threads after that.
+ * to lie in its box of that side. A structure is built when the first ray or point
+ * comes, and shared by all threads after that; few boxes are asked one by one.
  */
 class AccelCsg
 {
 	public:
-		/// Fewer parts are tested faster one after the other.
+		/// Fewer parts get no structure; of some of these the boxes are asked one after the other.
 		static const size_t FEWEST_PARTS = 6;
 
-		/// For rays and points within `reach`.
+		/// Of many parts, for rays and points within `reach`.
 		AccelCsg(CompoundObject& object, AccelOperation operation, const AccelReach& reach);
+
+		/// Of few parts, with boxes for rays and points within `reach`.
+		AccelCsg(CompoundObject& object, AccelOperation operation, const AccelReach& reach, const AccelFewParts& few);
 		~AccelCsg();
 
 		/// Does it answer, or do stock's loops over all parts?
@@ -54,7 +58,8 @@ class AccelCsg
 		bool AllIntersections(const Ray& ray, IStack& depths, TraceThreadData *thread) const;
 		bool Inside(const VECTOR point, TraceThreadData *thread) const;
 
-		bool IsBuilt() const { return levels[NEAR].built || levels[FAR].built; }
+		bool IsOfFew() const { return !few.IsEmpty(); }
+		bool IsBuilt() const { return IsOfFew() || levels[NEAR].built || levels[FAR].built; }
 		size_t PartCount() const { return parts.size(); }
 		size_t Bytes() const;
 	private:
@@ -75,6 +80,7 @@ class AccelCsg
 		CompoundObject& object;
 		const vector<ObjectPtr>& parts;
 		const AccelOperation operation;
+		const AccelFewParts few; // none where there is a structure
 		mutable Level levels[LEVELS];
 		mutable std::atomic<bool> measured; // levels[NEAR].reach is known
 		mutable boost::mutex mutex;
@@ -83,7 +89,10 @@ class AccelCsg
 		const Level *Choose(const VECTOR where) const;
 		void FindNear(const Ray& ray, AccelPlaces& near, TraceThreadData *thread) const;
 		void FindNear(const VECTOR point, AccelPlaces& near) const;
+		bool AddHitsOfFew(uint32_t near, const Ray& ray, IStack& depths, TraceThreadData *thread) const;
+		bool AddHitsOfMany(const Ray& ray, IStack& depths, TraceThreadData *thread) const;
 		bool AddHits(uint32_t place, const Ray& ray, IStack& local, IStack& depths, TraceThreadData *thread) const;
+		bool Hides(uint32_t place, const VECTOR point, const Ray& ray, TraceThreadData *thread) const;
 		bool IsSurface(const VECTOR point, uint32_t place, const Ray& ray, TraceThreadData *thread) const;
 
 		/// not available
@@ -91,8 +100,10 @@ class AccelCsg
 		AccelCsg& operator=(const AccelCsg&);
 };
 
-/// Gives structures to the CSG objects with enough parts among these objects, their parts, clips and bounds.
-void Accel_Take_Csg(const vector<ObjectPtr>& objects, const AccelReach& reach, vector<AccelCsg *>& taken);
+/// Gives structures to the CSG objects with enough parts among these objects, their parts, clips and bounds, and to some of the
+/// others the boxes that were kept, which are for rays within `near`.
+void Accel_Take_Csg(const vector<ObjectPtr>& objects, const AccelReach& reach, const AccelReach& near, const AccelFewBoxes& boxes,
+                    vector<AccelCsg *>& taken);
 
 }
 

@@ -30,6 +30,20 @@ enum AccelRays
 	ACCEL_ALL_RAYS
 };
 
+class CompoundObject;
+
+/// Sees the parts of CSG objects while bounds are found.
+class AccelPartObserver
+{
+	public:
+		virtual bool Wants(const CompoundObject& compound) const = 0;
+
+		/// A box around the hits of the object, and what Find_Part_Boxes says of its parts.
+		virtual void See(const CompoundObject& compound, const accel_box& whole, const vector<accel_box>& boxes, const vector<uint32_t>& always) = 0;
+	protected:
+		~AccelPartObserver() { }
+};
+
 /// Boxes are found for rays that begin in this cube. From farther away, leaf tests are wrong by more.
 struct AccelReach
 {
@@ -37,9 +51,10 @@ struct AccelReach
 	DBL radius;
 	AccelGrazings *grazings; // rays that do not belong here; NULL: all do
 	bool wanting; // what is wanted for grazings is only now found
+	AccelPartObserver *observer; // or NULL
 
 	/// No place at all.
-	AccelReach() : radius(-1.0), grazings(NULL), wanting(false) { center[X] = center[Y] = center[Z] = 0.0; }
+	AccelReach() : radius(-1.0), grazings(NULL), wanting(false), observer(NULL) { center[X] = center[Y] = center[Z] = 0.0; }
 
 	/// Does a ray along there not belong here, wherever it begins?
 	bool LeavesOut(const VECTOR direction) const { return (grazings != NULL) && grazings->Holds(direction); }
