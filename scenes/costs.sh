@@ -17,11 +17,6 @@ Whether auto chooses better by them the section "The choice of auto" of scenes/r
 HELP
 }
 
-bad_usage() {
-    printf 'costs.sh: %s; --help explains\n' "$*" >&2
-    exit 2
-}
-
 figures=() rays=(-n 3000 --repeats 5 --judged 20) quick=0
 # shellcheck disable=SC2054 # commas within options
 small=(soup:n=1000 soup:min=0.1,n=3000 spheres:n=30 spheres:n=1000 nested:n=50 same:n=200)

@@ -23,11 +23,6 @@ Ends with 0 if all hits and pixels agree, 1 if any differs, 2 on bad usage.
 HELP
 }
 
-bad_usage() {
-    printf 'demo.sh: %s; --help explains\n' "$*" >&2
-    exit 2
-}
-
 configs=() scenes=() runs=2 width=640 height=360
 
 parse_arguments() {
@@ -78,10 +73,6 @@ trace_seconds() { awk '/Trace Time:/ { on = 1 } on && /CPU-seconds/ { print $5; 
 rays() { awk '/^Rays:/ { n += $2 } /^Shadow Ray Tests:/ { n += $4 } END { print n + 0 }' "$1"; }
 verified() { awk '/^Accelerator verified:/ { print $3 }' "$1"; }
 differences() { awk '/^Accelerator verified:/ { print $5 }' "$1"; }
-
-median() {
-    sort -n | awk '{ v[NR] = $1 } END { print (v[int((NR + 1) / 2)] + v[int(NR / 2) + 1]) / 2 }'
-}
 
 # The pixels of a file without its header, which holds the date.
 pixels() { tail -c $((width * height * 6)) "$1"; }

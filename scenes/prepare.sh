@@ -42,6 +42,17 @@ die() {
     exit 1
 }
 
+# Ends a script that was called wrongly.
+bad_usage() {
+    printf '%s: %s; --help explains\n' "$(basename "$0")" "$*" >&2
+    exit 2
+}
+
+# The median of the numbers on stdin, one a line.
+median() {
+    sort -g | awk '{ v[NR] = $1 } END { print (v[int((NR + 1) / 2)] + v[int(NR / 2) + 1]) / 2 }'
+}
+
 # need_folder FOLDER: makes it unless it is there, and sees that files can be written in it.
 need_folder() {
     local trouble probe

@@ -15,11 +15,6 @@ else, and then replaces FILE (default: scenes/RESULTS.md).
 HELP
 }
 
-bad_usage() {
-    printf 'results.sh: %s; --help explains\n' "$*" >&2
-    exit 2
-}
-
 quick=0 page=$root/scenes/RESULTS.md
 while [ $# -gt 0 ]; do
     case $1 in

@@ -23,11 +23,6 @@ build/sweep/, the table also to build/sweep/table.
 HELP
 }
 
-bad_usage() {
-    printf 'sweep.sh: %s; --help explains\n' "$*" >&2
-    exit 2
-}
-
 size=160x120 runs=3 limit=20 config=() scenes=()
 
 parse_arguments() {
@@ -64,10 +59,6 @@ trace() {
     rm "$log.raw"
     awk '/ Time:/ { on = /Trace Time:/ } on && /CPU-seconds/ { print $5; found = 1; exit }
         END { exit !found }' "$log"
-}
-
-median() {
-    sort -g | awk '{ t[NR] = $1 } END { print (t[int((NR + 1) / 2)] + t[int(NR / 2) + 1]) / 2 }'
 }
 
 # A line of the table: gain, seconds of each method, unbounded and all objects, name

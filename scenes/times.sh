@@ -41,10 +41,6 @@ trace() {
         END { print s }' >>"$list"
 }
 
-median() {
-    sort -n "$1" | awk '{ v[NR] = $1 } END { print (v[int((NR + 1) / 2)] + v[int(NR / 2) + 1]) / 2 }'
-}
-
 # turns SCENE ARGUMENT...: the scene with every contender, `runs` times in turn.
 turns() {
     local scene=$1 run config
@@ -62,10 +58,10 @@ turns() {
 
 table() {
     local scene=$1 stock1 stock2 config
-    stock1=$(median "$times/$scene.+BM1") stock2=$(median "$times/$scene.+BM2")
+    stock1=$(median <"$times/$scene.+BM1") stock2=$(median <"$times/$scene.+BM2")
     for config in "${configs[@]}"; do
         awk -v scene="$scene" -v kind="$config" -v a="$stock1" -v b="$stock2" \
-            -v ours="$(median "$times/$scene.$config")" 'BEGIN {
+            -v ours="$(median <"$times/$scene.$config")" 'BEGIN {
                 printf "%-18s %-10s %8.3f %8.3f %8.3f %7.2f\n", scene, kind, a, b, ours,
                     (a < b ? a : b) / ours }'
     done

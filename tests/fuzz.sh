@@ -23,10 +23,6 @@ fuzz=$root/build-fuzz
 source=$root/tests/fuzz
 merge=0
 minutes=1
-bad_usage() {
-    printf 'fuzz.sh: %s; --help explains\n' "$*" >&2
-    exit 2
-}
 if [ "${1:-}" = --merge ]; then
     merge=1
 elif [ $# -gt 0 ]; then

@@ -16,10 +16,6 @@ HELP
     exit 0
 fi
 millions=${1:-50} seed=${2:-1}
-bad_usage() {
-    printf 'rays.sh: %s; --help explains\n' "$*" >&2
-    exit 2
-}
 [ $# -le 2 ] || bad_usage "$# arguments; two are allowed"
 [[ $millions =~ ^[1-9][0-9]{0,5}$ ]] || bad_usage "'$millions' millions; 1 to 999999 are allowed"
 [[ $seed =~ ^[0-9]{1,15}$ ]] || bad_usage "seed '$seed'; a whole number is allowed"

@@ -1,24 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=bash
 # For the tests of strangers' projects: sourced with the program `host` of the build that is tested
-# as first argument. Works in a folder of its own, which is removed at the end.
-set -euo pipefail
+# as first argument.
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
+# shellcheck source=tests/scratch.sh
+. "$here/../scratch.sh"
 "$1" >"$work/expected"
-
-fail() {
-    printf 'FAIL: %s\n' "$*" >&2
-    exit 1
-}
-
-# quietly WHAT COMMAND...: shows the end of what a command prints only where it fails.
-quietly() {
-    local what=$1
-    shift
-    "$@" >"$work/log" 2>&1 || { tail -n 20 "$work/log" >&2 && fail "$what"; }
-}
 
 # same_answers WHAT PROGRAM...: the program gives the bits of the build that is tested.
 same_answers() {

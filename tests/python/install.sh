@@ -4,23 +4,10 @@
 # and runs its tests there. The source's folder is left as it was.
 #
 #     install.sh ACCEL LAYOUT     the command, and the program that prints the layouts of accel.h
-set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
+# shellcheck source=tests/scratch.sh
+. "$here/../scratch.sh"
 unset ACCEL_LIBRARY PYTHONPATH
-
-fail() {
-    printf 'FAIL: %s\n' "$*" >&2
-    exit 1
-}
-
-# quietly WHAT COMMAND...: shows the end of what a command prints only where it fails.
-quietly() {
-    local what=$1
-    shift
-    "$@" >"$work/log" 2>&1 || { tail -n 20 "$work/log" >&2 && fail "$what"; }
-}
 
 # A python3 that has what Debian's packages bring; another may stand before it in PATH.
 python=
