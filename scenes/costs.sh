@@ -39,8 +39,8 @@ if [ "${#figures[@]}" -eq 0 ]; then
         "$build/accel" info one -a $kind --quiet >/dev/null 2>&1 && kinds+=(-a "$kind")
     done
     [ $quick = 0 ] || choice_scenes=(cubes:gap=1 teapots:quads=3 soup:n=1000 spheres:n=1000)
-    [ $quick = 0 ] || # shellcheck disable=SC2054 # commas within options
-small=(soup:n=1000 spheres:n=30)
+    # shellcheck disable=SC2054 # commas within options
+    [ $quick = 0 ] || small=(soup:n=1000 spheres:n=30)
     [ $quick = 0 ] || rays=(-n 300 --repeats 2 --judged 20)
     [ $quick = 1 ] || "$root/scenes/fetch.sh" dragon
     need_folder "$build/costs"
