@@ -39,6 +39,7 @@
 #include "backend/render/trace.h"
 #include "backend/scene/objects.h"
 #include "backend/scene/scene.h"
+#include "backend/shape/isosurf.h"
 #include "backend/support/task.h"
 
 // this must be the last file included
@@ -207,7 +208,7 @@ static void Test_Object(accel_probe *probe)
 	AccelQuery& query = *reinterpret_cast<AccelQuery *>(probe->query->user);
 	ObjectPtr object = query.objects[probe->prim];
 
-	if(query.MayHit(object) == false)
+	if(query.IsToTest(object) == false)
 		return;
 
 	query.leafTests++;
@@ -233,6 +234,28 @@ static double Count_Parts(const ObjectBase *object)
 		parts += Count_Parts(*i);
 
 	return parts;
+}
+
+static bool Any_Changes(const vector<ObjectPtr>& objects);
+
+/// Does a leaf test change what the next one finds? An isosurface with `evaluate` learns its gradient.
+static bool Changes_When_Tested(const ObjectBase *object)
+{
+	const IsoSurface *surface = dynamic_cast<const IsoSurface *>(object);
+	const CompoundObject *compound = dynamic_cast<const CompoundObject *>(object);
+
+	return ((surface != NULL) && surface->eval) || Any_Changes(object->Clip) || Any_Changes(object->Bound) ||
+	       ((compound != NULL) && Any_Changes(compound->children));
+}
+
+static bool Any_Changes(const vector<ObjectPtr>& objects)
+{
+	bool any = false;
+
+	for(vector<ObjectPtr>::const_iterator i = objects.begin(); i != objects.end(); i++)
+		any = any || Changes_When_Tested(*i);
+
+	return any;
 }
 
 /// A coarse grid of the rays that a perspective or orthographic camera will shoot, and about those of others. For
@@ -303,6 +326,11 @@ void Accelerator::TakeObjects(const SceneData& scene)
 			objects.push_back(*i);
 	}
 	lightsLeftOut = scene.objects.size() - objects.size();
+	for(vector<ObjectPtr>::const_iterator i = objects.begin(); i != objects.end(); i++)
+	{
+		if(Changes_When_Tested(*i))
+			changing.insert(*i);
+	}
 	few = (objects.size() <= MOST_FEW) && ((config == "") || (config.compare(0, 4, "auto") == 0)) && (verify == false);
 	sceneData = &scene;
 
@@ -429,7 +457,7 @@ bool Accelerator::FindInPart(const Part& part, AccelQuery& query, accel_query& c
 	{
 		ObjectPtr object = query.objects[*i];
 
-		if(query.MayHit(object) == false)
+		if(query.IsToTest(object) == false)
 			continue;
 		query.leafTests++;
 		if(query.TestLeaf(object, query.best.Depth) == true)
@@ -468,7 +496,7 @@ bool Accelerator::FindAmongFew(AccelQuery& query, uint32_t& index) const
 {
 	for(size_t i = 0; i < objects.size(); i++)
 	{
-		if(query.MayHit(objects[i]) == false)
+		if(query.IsToTest(objects[i]) == false)
 			continue;
 		query.leafTests++;
 		if(query.TestLeaf(objects[i]) == true)
@@ -493,6 +521,8 @@ bool Accelerator::Find(Trace& trace, Trace::CooperateFunctor& cooperate, AccelQu
 	uint32_t index = ACCEL_NONE;
 	bool found = false;
 
+	if(changing.empty() == false && (changing.count(query.missed) > 0))
+		query.missed = NULL;
 	if(few == false)
 	{
 		const bool usual = parts[0].reach.Holds(query.ray.Origin) && !grazings.Holds(query.ray.Direction);

@@ -100,6 +100,8 @@ class Accelerator
 		static const size_t MOST_FEW = 8;
 		/// the objects that a ray can hit, in the order of the scene
 		vector<ObjectPtr> objects;
+		/// those whose leaf test changes what the next one finds
+		std::set<ObjectPtr> changing;
 		/// number of light sources left out, as no ray can hit them
 		size_t lightsLeftOut;
 		/// of each search: objects that points outside their box may be in, or that have none, in the order of the scene

@@ -43,12 +43,13 @@ struct AccelQuery
 	ObjectBase::BBoxDirection variant;
 	POV_ULONG leafTests;
 	POV_ULONG leafHits;
+	ObjectPtr missed; // what the ray was found to miss just before (povaccelmissed.h), or NULL
 	uint32_t firstUnbounded; // of what was hit before the structure was asked, or ACCEL_NONE
 	DBL firstDepth;
 
 	AccelQuery(const vector<ObjectPtr>& objs, const Ray& r, const RayObjectCondition *prec, const RayObjectCondition *postc,
 	           TraceThreadData *t, Intersection& bi) :
-		objects(objs), ray(r), precondition(prec), postcondition(postc), thread(t), best(bi), prepared(false), leafTests(0), leafHits(0), firstUnbounded(ACCEL_NONE), firstDepth(HUGE_VAL)
+		objects(objs), ray(r), precondition(prec), postcondition(postc), thread(t), best(bi), prepared(false), leafTests(0), leafHits(0), missed(t->accelMissed), firstUnbounded(ACCEL_NONE), firstDepth(HUGE_VAL)
 	{
 	}
 
@@ -61,6 +62,12 @@ struct AccelQuery
 	bool MayHit(ObjectPtr object) const
 	{
 		return (precondition == NULL) || (*precondition)(ray, object, 0.0);
+	}
+
+	/// May a leaf test find what is not known yet?
+	bool IsToTest(ObjectPtr object)
+	{
+		return MayHit(object) && ((object != missed) || (IsMissed() == false));
 	}
 
 	/// As BSPIntersectFunctor does.
@@ -86,6 +93,19 @@ struct AccelQuery
 			return Find_Intersection(&candidate, object, ray, variant, origin, invdir, thread);
 	}
 	private:
+		/// Was `missed` tested indeed? Stock asks the object's box first, up to the limit of the test.
+		bool IsMissed()
+		{
+			if(prepared == false)
+				Prepare();
+
+			const bool isMissed = missed->Intersect_BBox(variant, origin, invdir, thread->accelMissedLimit);
+
+			thread->Stats()[Accel_Shadow_Tests_Spared] += isMissed;
+
+			return isMissed;
+		}
+
 		bool TestMesh(ObjectPtr object, DBL limit);
 };
 

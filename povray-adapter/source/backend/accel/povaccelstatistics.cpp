@@ -129,6 +129,7 @@ void Accelerator::GetStatistics(POVMS_Object& renderStats, const RenderStatistic
 	const POV_ULONG refused = stats[Accel_Rays_Refused];
 	const POV_ULONG verified = stats[Accel_Queries_Verified];
 	const POV_ULONG different = stats[Accel_Queries_Different];
+	const POV_ULONG spared = stats[Accel_Shadow_Tests_Spared];
 	std::string text;
 
 	if(parts[0].structure != NULL)
@@ -144,6 +145,8 @@ void Accelerator::GetStatistics(POVMS_Object& renderStats, const RenderStatistic
 	text += Describe_Csg(csg, stats);
 	if(meshTotals.meshes > 0)
 		text += Describe_Meshes(meshTotals);
+	if(spared > 0)
+		text += str(format("Accelerator shadows:  %13d   (tests spared of the object in the shadow cache, just found not hit)\n") % spared);
 	if(verified > 0)
 		text += str(format("Accelerator verified: %13d   Differences:     %15d\n") % verified % different);
 	if(refused > 0)
