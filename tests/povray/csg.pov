@@ -72,3 +72,18 @@ union {
     clipped_by { box { <-2, -0.3, -2>, <2, 0.3, 2> } }
     translate <0, 3.2, 0>
 }
+// a sheet has no inside, so what is cut out of it is not bounded by that; many parts and few
+#declare Sheet = mesh { triangle { <-2, 0, -2>, <2, 0, -2>, <2, 0.3, 2> } triangle { <-2, 0, -2>, <2, 0.3, 2>, <-2, 0, 2> } }
+difference {
+    object { Sheet }
+    #for (I, 1, 9) sphere { Random() * <1, 0.1, 1>, 0.5 } #end
+    Colour()
+    rotate -60 * x scale 0.6 translate <-3.2, 3, -1>
+}
+difference {
+    object { Sheet }
+    torus { 0.9, 0.3 }
+    torus { 0.4, 0.2 translate <1.2, 0.1, 1.2> }
+    Colour()
+    rotate -60 * x scale 0.6 translate <-0.4, 3, -3>
+}

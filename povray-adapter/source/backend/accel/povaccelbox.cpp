@@ -282,7 +282,8 @@ vector<accel_box> Find_Boxes(const vector<ObjectPtr>& objects, const AccelReach&
  * A union settles a point by a part that it is inside of, an intersection by one that
  * it is outside of. Parts whose box of that side is not finite are always asked. In an
  * intersection, a point that is outside of one of those is settled by it, and a hit
- * there does not count; so the boxes of the others need not reach beyond.
+ * there does not count; so the boxes of the others need not reach beyond. Its own hits
+ * are in its inside only if it is solid: a patch does not ask itself.
  */
 static void Boxes_Of_Parts(const vector<AccelBounds>& bounds, const VECTOR slack, bool common, const AccelReach& reach, vector<accel_box>& boxes, vector<uint32_t>& always)
 {
@@ -296,7 +297,7 @@ static void Boxes_Of_Parts(const vector<AccelBounds>& bounds, const VECTOR slack
 		{
 			always.push_back(i);
 			boxes[i] = Empty_Box();
-			if(common)
+			if(common && bounds[i].solid)
 				within.Intersect(As_Tested(bounds[i].inside, slack, reach));
 		}
 	}
