@@ -11,8 +11,9 @@
  * [-1, 1]: the scene's times a power of two, so that neither float's range nor the units of the
  * scene matter.
  *
- * Invariant: every bounded primitive is in exactly one leaf. A child's box contains the padded
- * boxes P' of all primitives below, moved out by WIDE_PAD: see wide_ray.h for what that pays for.
+ * Invariant: every bounded primitive is in a leaf, in exactly one but for triangles that are cut
+ * (wide_split.h). A child's box contains the padded boxes P' of all primitives below, or of what is
+ * cut those parts that are below, moved out by WIDE_PAD: see wide_ray.h for what that pays for.
  *
  * Cost: about 40 bytes a triangle of a mesh, 60 if its vertices are no floats. Bad at: what is
  * smaller than 2^-23 of the scene is told apart by no node, so a ray that goes there tests all that
@@ -68,6 +69,7 @@ struct wide_block {
 };
 
 struct wide_isa;
+struct wide_split;
 struct clustering;
 
 struct wide {
@@ -77,9 +79,11 @@ struct wide {
     size_t used;         /* bytes of nodes and leaves */
     uint32_t root;       /* a word */
     double scale;        /* scaled coordinates are the scene's times this, a power of two */
+    double reach;        /* longest side of a triangle that is cut, scaled; 0: none is */
     bool fast;           /* coordinates are such that no edge function overflows: see wide_leaf.h */
     uint32_t depth;      /* levels of nodes */
     uint64_t nodes, leaves, blocks;
+    uint64_t references; /* primitives in leaves, one that is cut in each of them */
     const struct wide_isa *isa;
     size_t boxes;  /* bytes of boxes and ids that were freed before the layout */
     uint64_t seal; /* of the nodes and leaves: see seal.h */
@@ -179,7 +183,7 @@ bool accel_wide_validate(const accel *a, const struct wide *w, accel_error *erro
 /* ------------------------------------------------------- the binary tree it is collapsed from ----
  */
 
-/* A primitive under construction: its padded box, scaled, rounded outward. */
+/* A primitive under construction, or a part of it: its padded box, scaled, rounded outward. */
 struct wide_item {
     float lo[3];
     uint32_t id;
@@ -201,9 +205,10 @@ struct wide_binary {
 
 struct wide_binary_tree {
     const struct clustering *clusters; /* or NULL */
+    const struct wide_split *split;
     struct wide_item *items;           /* in the order of the leaves */
     struct wide_binary *nodes;         /* 2n - 1 places; 0 is the root */
-    uint32_t count;                    /* n */
+    uint32_t count;                    /* n, parts of triangles included */
 };
 
 /* Grows it, and decides by dynamic programming which of its nodes become wide nodes and leaves. */

@@ -3,7 +3,7 @@
  * The life of a wide tree: see wide.h.
  */
 #include "wide_isa.h"
-
+#include "wide_split.h"
 
 #include "../core/box.h"
 
@@ -65,17 +65,31 @@ static void release(struct build *build, struct wide_binary_tree *tree)
         accel_memory_resize(m, tree->nodes, (2 * n - 1) * sizeof *tree->nodes, 0);
 }
 
+/* How many items there will be. */
+static uint32_t count_items(const struct wide_split *s)
+{
+    const struct ids *ids = &s->prims->bounded;
+    uint32_t sum = 0;
+    for (size_t i = 0; i < ids->count; i++)
+        sum += wide_split_pieces(s, ids->at[i]);
+    return sum;
+}
+
 bool accel_wide_build(struct build *build, struct wide *w, const struct wide_isa *isa,
                       enum wide_cut cut, const struct clustering *clusters)
 {
     const struct primitives *p = &build->a->prims;
-    struct wide_binary_tree tree = {.count = (uint32_t)p->bounded.count, .clusters = clusters};
+    struct wide_split split;
+    struct wide_binary_tree tree = {.clusters = clusters, .split = &split};
     double largest;
     w->isa = isa;
     w->scale = scale_of(&p->bounds, &largest);
     w->fast = largest <= FAST_COORDINATE;
     accel_build_phase(build, "tree");
-    bool fine = allocate(build, &tree) && accel_wide_grow(build, w, isa->rule, cut, &tree);
+    bool fine = accel_wide_split(build, w, &split);
+    tree.count = fine ? count_items(&split) : 0;
+    fine = fine && allocate(build, &tree) && accel_wide_grow(build, w, isa->rule, cut, &tree);
+    accel_wide_split_free(build, &split);
     if (fine) {
         if (accel_wide_holds_all(w, p))
             w->boxes = accel_primitives_leave_boxes(&build->a->memory, &build->a->prims);

@@ -254,6 +254,15 @@ static enum wide_type type_of(const struct emitter *e, uint32_t id)
     return is_float(triangle(e, id), 9) ? WIDE_FLOATS : WIDE_DOUBLES;
 }
 
+/* Several parts of a triangle may have come to one leaf. */
+static bool is_among(const uint32_t *ids, uint32_t count, uint32_t id)
+{
+    for (uint32_t i = 0; i < count; i++)
+        if (ids[i] == id)
+            return true;
+    return false;
+}
+
 /* A leaf: its primitives by type, in blocks. Returns its word. */
 static uint32_t emit_leaf(struct emitter *e, const struct wide_binary *node)
 {
@@ -264,9 +273,10 @@ static uint32_t emit_leaf(struct emitter *e, const struct wide_binary *node)
         uint32_t ids[WIDE_BLOCK], count = 0, done = 0;
         for (uint32_t i = 0; i < node->count; i++) {
             const uint32_t id = e->tree->items[node->first + i].id;
-            if (type_of(e, id) == type)
+            if (type_of(e, id) == type && !is_among(ids, count, id))
                 ids[count++] = id;
         }
+        e->w->references += count;
         while (done < count) {
             last = (struct wide_block *)(e->w->base + e->used);
             done += emit_block(e, ids + done, count - done, type);

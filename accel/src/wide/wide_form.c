@@ -42,8 +42,13 @@ bool accel_wide_form_build(struct build *build, struct wide *w, const double *is
         return false;
     info->nodes = w->nodes;
     info->leaves = w->leaves;
-    info->references = p->bounded.count;
+    info->references = w->references;
     info->depth = w->depth;
+    if (w->reach > 0.0)
+        accel_build_note(build,
+                         "boxes of triangles lie across each other: large ones are in several "
+                         "leaves, %.2f references a primitive",
+                         (double)w->references / (double)p->bounded.count);
     if (w->nodes == 0)
         accel_build_left_out(build, sizeof(struct wide_node), w->bytes,
                              "few primitives: a leaf, no tree");

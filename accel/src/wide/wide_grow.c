@@ -14,7 +14,7 @@
  * middle always does. So a range at WIDE_MAX_DEPTH has one item. Clusters are parted in the same
  * way within CLUSTER_DEPTH levels.
  */
-#include "wide.h"
+#include "wide_split.h"
 
 #include <string.h>
 
@@ -505,14 +505,25 @@ static bool grow_sides(struct grower *g, const struct task side[2])
 /* Makes items of some primitives. */
 static bool gather(struct grower *g, const uint32_t *ids, uint32_t first, uint32_t count)
 {
-    const accel_box *box = g->build->a->prims.box;
     struct wide_item *items = g->tree->items + first;
     for (uint32_t i = 0; i < count; i++) {
-        items[i] = accel_wide_item_of(g->w, &box[ids[i]], ids[i]);
+        items += accel_wide_split_items(g->tree->split, ids[i], items);
         if (i % TICK == TICK - 1 && !tick(g, 0))
             return false;
     }
     return true;
+}
+
+/* Items that a cluster becomes. */
+static uint32_t count_items(const struct grower *g, const struct cluster *c)
+{
+    const uint32_t *ids = g->tree->clusters->order.at + c->first;
+    uint32_t sum = 0;
+    if (!g->tree->split->pieces)
+        return c->count;
+    for (uint32_t i = 0; i < c->count; i++)
+        sum += wide_split_pieces(g->tree->split, ids[i]);
+    return sum;
 }
 
 static uint32_t count_primitives(const struct grower *g, const struct wide_item *clusters,
@@ -520,7 +531,7 @@ static uint32_t count_primitives(const struct grower *g, const struct wide_item 
 {
     uint32_t sum = 0;
     for (uint32_t i = 0; i < count; i++)
-        sum += g->tree->clusters->clusters.at[clusters[i].id].count;
+        sum += count_items(g, &g->tree->clusters->clusters.at[clusters[i].id]);
     return sum;
 }
 
@@ -530,7 +541,7 @@ static bool grow_cluster(struct grower *g, uint32_t number, uint32_t first, uint
     const struct clustering *c = g->tree->clusters;
     const struct cluster *cluster = &c->clusters.at[number];
     return gather(g, c->order.at + cluster->first, first, cluster->count) &&
-           grow(g, first, cluster->count, place, depth, ALL_AXES, out);
+           grow(g, first, count_items(g, cluster), place, depth, ALL_AXES, out);
 }
 
 /* Grows the subtree over some clusters, whose primitives will stand from the `first` item on. */
@@ -588,6 +599,6 @@ bool accel_wide_grow(struct build *build, const struct wide *w, struct wide_rule
     accel_team_make(&shared.team, build->hooks->threads);
     if (tree->clusters)
         return grow_hierarchy(&g, &costs);
-    return gather(&g, build->a->prims.bounded.at, 0, tree->count) &&
+    return gather(&g, build->a->prims.bounded.at, 0, (uint32_t)build->a->prims.bounded.count) &&
            grow(&g, 0, tree->count, 0, 0, ALL_AXES, &costs);
 }

@@ -37,7 +37,7 @@
 
 #include <string.h>
 
-#include "wide.h"
+#include "wide_split.h"
 
 #define WIDE_FAR 0x1p32
 #if !defined(WIDE_STEPS) /* a test makes it too small */
@@ -129,8 +129,11 @@ static inline bool wide_ray_from(struct wide_ray *r, const struct wide *w, const
     r->to_scaled = w->scale * from_one;
     /* What is infinite or a NaN has too large an exponent. Within 2^-500 and 2^500, 1 / dir is
      * infinite only for a component that counts as steep anyway. */
-    if (!(org_sum * w->scale <= WIDE_FAR) || exponent - 523 > 1000 || !(tmin >= 0.0) ||
+    const double far = org_sum * w->scale;
+    if (!(far <= WIDE_FAR) || exponent - 523 > 1000 || !(tmin >= 0.0) ||
         !(r->to_scaled >= 0x1p-1000 && r->to_scaled <= 0x1p1000) || !wide_rounds_to_nearest())
+        return false;
+    if (w->reach > 0.0 && far > SPLIT_NEAR && !accel_wide_split_serves(far, dir))
         return false;
     const uint64_t negative = (uint64_t)1 << 63, dropped = 0x1fffffff;
     const wide_four d = {dir[0], dir[1], dir[2], 1.0}, o = {org[0], org[1], org[2], 0.0};

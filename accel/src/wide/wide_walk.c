@@ -3,8 +3,7 @@
  * The walk of any query on any ray: S of every child by the rule of query.h, in double. The fast
  * walks are judged by it, and leave to it what they do not serve.
  */
-#include "wide.h"
-
+#include "wide_split.h"
 
 #if defined(__SSE2__)
 #include <xmmintrin.h>
@@ -127,12 +126,12 @@ void accel_wide_test_leaf(const struct wide *w, struct query *q, uint32_t word)
     }
 }
 
-static accel_box child_box(const struct wide *w, const struct wide_node *node, int i)
+static accel_box child_box(const struct wide *w, const struct wide_node *node, int i, double growth)
 {
     accel_box box;
     for (int k = 0; k < 3; k++) {
-        box.lo[k] = (double)node->plane[k][0][i] / w->scale;
-        box.hi[k] = (double)node->plane[k][1][i] / w->scale;
+        box.lo[k] = (double)node->plane[k][0][i] / w->scale - growth;
+        box.hi[k] = (double)node->plane[k][1][i] / w->scale + growth;
     }
     return box;
 }
@@ -145,11 +144,11 @@ struct waiting {
 
 /* Puts the children that may matter on the stack, nearest last. */
 static struct waiting *push(const struct wide *w, const struct wide_node *node, struct query *q,
-                            struct waiting *top)
+                            double growth, struct waiting *top)
 {
     struct waiting *bottom = top;
     for (int i = 0; i < WIDE && node->plane[0][0][i] <= node->plane[0][1][i]; i++) {
-        const accel_box box = child_box(w, node, i);
+        const accel_box box = child_box(w, node, i, growth);
         const struct interval s = query_box(q, &box);
         if (!query_meets(q, s))
             continue;
@@ -164,6 +163,7 @@ static struct waiting *push(const struct wide *w, const struct wide_node *node, 
 void accel_wide_walk(const struct wide *w, struct query *q)
 {
     struct waiting stack[WIDE_MAX_DEPTH * (WIDE - 1) + 2], *top = stack;
+    const double growth = accel_wide_split_growth(w, q);
     *top++ = (struct waiting){-(double)INFINITY, w->root};
     while (top > stack && !query_done(q)) {
         const struct waiting at = *--top;
@@ -174,6 +174,6 @@ void accel_wide_walk(const struct wide *w, struct query *q)
             continue;
         }
         q->nodes++;
-        top = push(w, wide_node_at(w, at.word), q, top);
+        top = push(w, wide_node_at(w, at.word), q, growth, top);
     }
 }
