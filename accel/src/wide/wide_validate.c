@@ -18,12 +18,14 @@ struct part {
     float lo[3], hi[3];
 };
 
+enum { SEEN = 1, HELD = 2 };
+
 /* What is the same for all nodes. */
 struct checker {
     const accel *a;
     const struct wide *w;
     accel_error *error;
-    uint8_t *seen;       /* by id: in a leaf */
+    uint8_t *seen;       /* by id: in a leaf (SEEN), whose box holds all of it (HELD) */
     uint64_t nodes;      /* visited so far */
     uint64_t found;      /* primitives so far */
     uint64_t references; /* the same, each as often as it is in leaves */
@@ -84,15 +86,14 @@ static bool check_primitive(struct checker *c, const struct wide_block *b, unsig
     if (id >= c->a->prims.count || (c->seen[id] && !may_be_cut))
         return broken(c, "out of range or in two leaves, primitive", id);
     c->references++;
-    if (!holds(c, lo, hi, b, i)) {
-        if (!may_be_cut)
-            return broken(c, "a leaf's box does not hold primitive", id);
-        if (!note_part(c, lo, hi, b, i))
-            return false;
-    }
-    if (c->seen[id])
+    const bool first = c->seen[id] == 0, held = holds(c, lo, hi, b, i);
+    c->seen[id] |= held ? SEEN | HELD : SEEN;
+    if (!held && !may_be_cut)
+        return broken(c, "a leaf's box does not hold primitive", id);
+    if (!held && !note_part(c, lo, hi, b, i))
+        return false;
+    if (!first)
         return true;
-    c->seen[id] = 1;
     c->found++;
     if (b->type < WIDE_SPHERES) {
         double vertices[9];
@@ -224,7 +225,7 @@ static bool check_parts(struct checker *c)
     for (size_t i = 0, end; i < c->parts; i = end) {
         for (end = i + 1; end < c->parts && c->part[end].id == c->part[i].id; end++)
             ;
-        if (!check_parts_of(c, c->part + i, end - i))
+        if (!(c->seen[c->part[i].id] & HELD) && !check_parts_of(c, c->part + i, end - i))
             return false;
     }
     return true;
