@@ -33,6 +33,7 @@ const struct scene_maker scene_makers[] = {
     {"random", "shards", "1,000 triangles, edges 1e-3..1", make_shards, 1000, 5000, 0},
     {"random", "shards-20k", "20,000 triangles, edges 1e-3..1", make_shards, 20000, 5000, 0},
     {"random", "shards-100k", "100,000 triangles, edges 1e-3..1", make_shards, 100000, 5000, 0},
+    {"random", "thicket", "900 large triangles across each other", make_thicket, 900, 5000, 0},
     {"sizes", "sizes", "1,000 triangles, edges 1e-12..1", make_log_sizes, 1000, 5000, 0},
     SCALED("scale-1e-310", 1e-310),
     SCALED("scale-1e-300", 1e-300),

@@ -43,8 +43,8 @@ bool takes_turn(uint64_t i);
 
 /* The generators, by file. */
 typedef void make_scene(struct test_scene *s, struct rng *d, double param);
-make_scene make_shards, make_log_sizes, make_scaled, make_shifted, make_slivers, make_speck,
-    make_huge_and_tiny, make_mixed; /* loose.c */
+make_scene make_shards, make_thicket, make_log_sizes, make_scaled, make_shifted, make_slivers,
+    make_speck, make_huge_and_tiny, make_mixed; /* loose.c */
 make_scene make_degenerate, make_coincident, make_nested, make_series, make_few, make_all_invalid,
     make_empty;                                                                  /* limits.c */
 make_scene make_skinny, make_slab, make_collision, make_pyramid, make_quantised; /* reported.c */

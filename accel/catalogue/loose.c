@@ -34,6 +34,24 @@ void make_shards(struct test_scene *s, struct rng *d, double count)
         random_triangle(p, d, count < 5000 ? rng_power(d, -10, 0) : rng_power(d, -10, -4));
 }
 
+/* Large triangles across each other, as trees cut them up; every third with its corners on a
+ * lattice, so that many lie in one plane and along the axes; and small ones between. */
+void make_thicket(struct test_scene *s, struct rng *d, double count)
+{
+    struct part *p = scene_part(s, ACCEL_TRIANGLES);
+    for (uint32_t i = 0; i < (uint32_t)count; i++) {
+        double at[3][3];
+        if (i % 3 != 0) {
+            random_triangle(p, d, i % 3 == 1 ? rng_power(d, -1, 1) : rng_power(d, -12, -2));
+            continue;
+        }
+        for (int corner = 0; corner < 3; corner++)
+            for (int k = 0; k < 3; k++)
+                at[corner][k] = 0.25 * (double)rng_below(d, 9) - 1.0;
+        part_triangle(p, at[0], at[1], at[2]);
+    }
+}
+
 void make_log_sizes(struct test_scene *s, struct rng *d, double count)
 {
     struct part *p = scene_part(s, ACCEL_TRIANGLES);

@@ -206,9 +206,9 @@ struct wide_binary {
 struct wide_binary_tree {
     const struct clustering *clusters; /* or NULL */
     const struct wide_split *split;
-    struct wide_item *items;           /* in the order of the leaves */
-    struct wide_binary *nodes;         /* 2n - 1 places; 0 is the root */
-    uint32_t count;                    /* n, parts of triangles included */
+    struct wide_item *items;   /* in the order of the leaves */
+    struct wide_binary *nodes; /* 2n - 1 places; 0 is the root */
+    uint32_t count;            /* n, parts of triangles included */
 };
 
 /* Grows it, and decides by dynamic programming which of its nodes become wide nodes and leaves. */

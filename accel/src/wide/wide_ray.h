@@ -133,7 +133,7 @@ static inline bool wide_ray_from(struct wide_ray *r, const struct wide *w, const
     if (!(far <= WIDE_FAR) || exponent - 523 > 1000 || !(tmin >= 0.0) ||
         !(r->to_scaled >= 0x1p-1000 && r->to_scaled <= 0x1p1000) || !wide_rounds_to_nearest())
         return false;
-    if (w->reach > 0.0 && far > SPLIT_NEAR && !accel_wide_split_serves(far, dir))
+    if (w->reach > 0.0 && far > SPLIT_FAR - 1.0)
         return false;
     const uint64_t negative = (uint64_t)1 << 63, dropped = 0x1fffffff;
     const wide_four d = {dir[0], dir[1], dir[2], 1.0}, o = {org[0], org[1], org[2], 0.0};

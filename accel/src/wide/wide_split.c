@@ -133,7 +133,11 @@ static void cut(struct cutting *c, const accel_box *cell, uint32_t pieces, int c
     const bool on_left = accel_wide_split_tighten(&c->plane, &left);
     const bool on_right = accel_wide_split_tighten(&c->plane, &right);
     if (!on_left || !on_right) {
-        cut(c, on_left ? &left : on_right ? &right : cell, pieces, on_left || on_right ? cuts + 1 : CUTS);
+        cut(c,
+            on_left    ? &left
+            : on_right ? &right
+                       : cell,
+            pieces, on_left || on_right ? cuts + 1 : CUTS);
         return;
     }
     const double sizes = size_of(&left) + size_of(&right);
@@ -193,15 +197,10 @@ static double excess(const struct wide_split *s, uint32_t id)
 /* May it be cut? */
 static bool eligible(const struct wide_split *s, uint32_t id)
 {
-    const accel_box box = wide_scaled(s->w, &s->prims->box[id]);
-    double largest = 0.0;
-    for (int k = 0; k < 3; k++)
-        largest = fmax(largest, fmax(fabs(box.lo[k]), fabs(box.hi[k])));
-    /* the padding is of the triangle's coordinates, which are a little smaller */
-    return largest >= SPLIT_AWAY * (1.0 + 0x1p-40) && box_longest(&box) >= SPLIT_LEAST;
+    return box_longest(&s->prims->box[id]) * s->w->scale >= SPLIT_LEAST;
 }
 
-/* The sum of all; stops where that is enough to tell, in which case *enough. */
+/* The sum of all. */
 static bool sum_excess(struct build *build, const struct wide_split *s, double *sum)
 {
     const struct ids *ids = &s->prims->bounded;
@@ -285,42 +284,18 @@ void accel_wide_split_free(struct build *build, struct wide_split *s)
 
 /* -------------------------------------------------------------------------------- walks ---- */
 
-static double least_of(const double dir[3], double *most)
-{
-    double least = (double)INFINITY;
-    *most = 0.0;
-    for (int k = 0; k < 3; k++) {
-        const double size = fabs(dir[k]);
-        *most = size > *most ? size : *most;
-        least = size > 0.0 && size < least ? size : least;
-    }
-    return least;
-}
-
-/* 64 v D (1 + r) <= 2^-21, four times as much as there is to be had. */
-bool accel_wide_split_serves(double far, const double dir[3])
-{
-    double most;
-    const double least = least_of(dir, &most);
-    const double away = 1.0 + far;
-    return away <= SPLIT_FAR && away * (least + most) <= 0x1p26 * least;
-}
-
 double accel_wide_split_growth(const struct wide *w, const struct query *q)
 {
-    double most, far = 0.0;
+    double most = 0.0, away = 1.0;
     if (w->reach == 0.0)
         return 0.0;
     if (q->point)
         return w->reach / w->scale;
-    for (int k = 0; k < 3; k++)
-        far = fmax(far, fabs(q->org[k]) * w->scale);
-    const double least = least_of(q->dir, &most), away = 1.0 + far;
-    const double rounding = 0x1p-47 * away, all = w->reach + rounding;
-    if (!(away <= SPLIT_FAR && most >= 0x1p-500 && most <= 0x1p500))
-        return all / w->scale;
-    if (far <= SPLIT_NEAR)
+    for (int k = 0; k < 3; k++) {
+        most = fmax(most, fabs(q->dir[k]));
+        away = fmax(away, fabs(q->org[k]) * w->scale + 1.0);
+    }
+    if (away <= SPLIT_FAR && most >= 0x1p-500 && most <= 0x1p500)
         return 0.0;
-    const double clamped = rounding * (1.0 + most / least);
-    return (clamped < all ? clamped : all) / w->scale;
+    return (w->reach + 0x1p-47 * away) / w->scale;
 }

@@ -11,39 +11,42 @@
  * planes, and of each part of it only what is nearer to the triangle's plane than SPLIT_SLAB is
  * kept. Every key is in S of a part, so a walk may pass by all nodes that it may pass by otherwise:
  *
- * All in scaled coordinates (wide.h). Let v = 2^-53, twice that under a directed rounding; L the
- * longest side of P', n = a x b for two edges of the triangle, |n_k| <= 2 L^2; D = 1 + |org|, and
- * D <= 2^16; K = org + key dir, exactly; x a sheared coordinate as computed, X what it would be
- * without rounding, |x - X| <= e = 4.01 v D + v m, m the largest |x| or |y|. Of a hit the computed
- * x hold the origin between them, for edge functions have the right sign where they are not 0
- * (triangle.h): hence m <= 2 L + 8.1 v D, and sum w x = 0 for some weights w, so that the ray's
- * line is within e of a point Q of the triangle, where t = tau. All distances are of coordinates.
+ * All in scaled coordinates (wide.h). Let v = 2^-53, twice that under a directed rounding; C the
+ * largest |coordinate| of the triangle, L the longest side of P', at least 2^-10 and less than
+ * 2.01 C; n = a x b for two edges, |n_k| <= 2 L^2; D = 1 + |org| <= 2^24 (SPLIT_FAR); K = org + key
+ * dir, exactly; s = dir_k / dir_z for the major axis z; x a sheared coordinate as computed, X what
+ * it would be without rounding, m the largest |x|. Then |x - X| <= e_k = 2.01 v m + 4.01 v |s| D;
+ * let e be that for |s| = 1. Of a hit, the computed x hold the origin between them, for edge
+ * functions have the right sign where they are not 0 (triangle.h): hence m <= 2 L + 2 e < 2.01 L,
+ * and sum w x = 0 for some weights w, so there is a point Q of the triangle where the ray's line,
+ * at tau, is within e_k of it along axis k, and not off along the major axis. Distances are of
+ * coordinates.
  *
- * 1. K leaves P' by 11.1 v D at the most: S is that of the slabs, each rounded by 3 v, grown by 8 v.
- * 2. If |det| < 2^-24 m^2, as computed, the ray grazes the triangle: K is in its plane, as is all of
- *    the line in P'. For the true det, n.dir / dir_z, differs from it by 24 v m^2 from the products
- *    and sums and by 12 e m + 6 e^2 from x - X; and K differs from the line's point at tau by at
- *    most L (1 + 2^-20) along the major axis; so n.K differs from n.Q by at most
+ * 1. K leaves P' by 11.1 v D at the most: slabs are rounded by 3 v, S is grown by 8 v.
+ * 2. If |det| < 2^-24 m^2, as computed, the ray grazes the triangle: so K is near its plane, as is
+ *    all of the line in P'. For the true det, n.dir / dir_z, differs from it by 24 v m^2 from the
+ *    products and sums and by 12 e m + 6 e^2 from x - X; and K is at most L (1 + 2^-20) before or
+ *    behind Q along the major axis; so n.K differs from n.Q by at most
  *        L (1 + 2^-20) (2^-24 m^2 + 24 v m^2 + 12 e m + 6 e^2) + 6 e L^2
- *        < 2^-21.9 L^3 + 40 e L^2 < 2^-21.9 L^3 + 2^-28.6 L^2.
- * 3. Else t is right: by the lemma "no clamp" (wide_leaf.h), the line's point at t is within
- *    d = 12 v m^3 / |det| + 14 v D < 2^-23.3 L + 28 v D of a point of the triangle. (Where the edge
- *    functions are computed in a longer type, they are right in full.) If tau is in S, then a t
- *    that is not is clamped to a key between both; between two points near a triangle, which is
- *    convex, the line is as near to it: K is within the larger of d and e. n.K differs from n.Q by
- *    at most 6 d L^2 < 2^-20.7 L^3 + 2^-28.5 L^2.
- *    tau is in S where e + 3 v D is less than the padding of P', 2^-44 of its largest |coordinate|,
- *    hence where that is at least SPLIT_AWAY and |org| <= SPLIT_NEAR: 2 (7.01 * 5 + 4) v < 127 v.
- * 4. Else both may be clamped to the same end of S, where axis k ends it: less than (e + 11.1 v D) /
- *    |dir_k| after tau, so K is within 15.2 v D (1 + r) of Q, r the largest |dir| by the least that
- *    is not 0 (one that is 0 ends nothing). Where that is less than 2^-21, parts are grown by more;
- *    other rays take the general walk, which grows boxes by as much (accel_wide_split_growth).
- * So n.K differs from n.Q by less than 2^-20 L^3 + 2^-28 L^2 (SPLIT_SLAB), which also has room for
- * n as computed, off by 6 v L^2, and for the sums with it; and the part that K is in, or nearest to
- * which it is, grown by SPLIT_PAD = 2^-20, holds K. What its slabs are rounded by, 3 v D, is less.
- * Rays whose products with dir may underflow, and from farther away, are only known to have K in
- * P': then, as for points, boxes are grown by the longest side of P' of any triangle that is cut
- * (`reach`), so that each part is as large as P'. Scales are such that nothing else underflows.
+ *        < 2^-21.9 L^3 + 40 e L^2 < 2^-21.8 L^3 + 2^-20.6 L^2.
+ * 3. Else t is right: by the proof of "no clamp" (wide_leaf.h), the line at t is within d = 12 v
+ * m^3 / |det| + 14 v D < 2^-23.3 L + 14 v D of a point of the triangle. (Where edge functions are
+ * computed in a longer type they have no error.) If t is in S, so is K. Else, if tau is in S, t is
+ * clamped to a key between both; and between two points near a triangle, which is convex, the line
+ * is as near to it: K is within the larger of d and e. Else axis k, not the major one, ends S
+ * between K, to which t is clamped, and the line at tau, which is off by more than the padding
+ * there, 2^-44 C: 256 v C - 2 v C < e_k < 8.2 v C + 4.01 v |s| D; hence |s| D > 60 C, and K is at
+ *    most e_k / |s| < 4.2 v D from the line at tau, and 4.2 v D + e from Q. n.K differs from n.Q by
+ *    at most 6 d L^2 < 2^-20.7 L^3 + 2^-21.6 L^2.
+ * So n.K differs from n.Q by less than 2^-20 L^3 + 2^-20 L^2 (SPLIT_SLAB) in any case, and there is
+ * room for n as computed, off by 6 v L^2, for the sums with it, and for 1. P' is the union of the
+ * cells that it is cut into: the one that K is in, or nearest to, grown by SPLIT_PAD = 2^-22, holds
+ * K when it is cut to the slab; and so does its S the key, whose slabs are rounded by 3 v D.
+ *
+ * Rays from farther away, and those whose products with dir may underflow, are only known to have K
+ * in P', by 1. For them, as for points, the general walk grows boxes by the longest side of P' of
+ * any triangle that is cut (`reach`), so that each part is as large as P', and by 64 v D. Scales
+ * are such that nothing else underflows.
  */
 #ifndef ACCEL_WIDE_SPLIT_H
 #define ACCEL_WIDE_SPLIT_H
@@ -52,14 +55,12 @@
 
 /* See above. */
 #if !defined(SPLIT_SLAB) /* a test makes them too small */
-#define SPLIT_SLAB(side) ((side) * (side) * ((side)*0x1p-20 + 0x1p-28))
+#define SPLIT_SLAB(side) ((side) * (side) * ((side)*0x1p-20 + 0x1p-20))
 #endif
 #if !defined(SPLIT_PAD)
-#define SPLIT_PAD 0x1p-20
+#define SPLIT_PAD 0x1p-22
 #endif
-#define SPLIT_AWAY 0.25
-#define SPLIT_NEAR 4.0
-#define SPLIT_FAR  0x1p16
+#define SPLIT_FAR 0x1p24
 
 /* The shortest triangle that is cut, and the scales of trees that have some. */
 #define SPLIT_LEAST 0x1p-10
@@ -89,10 +90,6 @@ uint32_t accel_wide_split_items(const struct wide_split *s, uint32_t id, struct 
 
 /* By how much the general walk must grow a tree's boxes, in the scene's coordinates: see above. */
 double accel_wide_split_growth(const struct wide *w, const struct query *q);
-
-/* Does a tree whose triangles are cut pass the ray in its fast walks, though it comes from farther
- * away than SPLIT_NEAR? far: the sum of |org|, scaled. */
-bool accel_wide_split_serves(double far, const double dir[3]);
 
 /* How many times a line through the scene meets a triangle's box in vain, and more. Both the build
  * and what is told before it (estimate.c) ask whether it is too often. */

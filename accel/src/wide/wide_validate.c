@@ -207,8 +207,7 @@ static bool check_parts_of(const struct checker *c, struct part *part, size_t co
     double vertices[9];
     accel_wide_vertices(part->block, part->place, vertices);
     const accel_box padded = accel_wide_triangle_box(part->block, part->place);
-    const struct split_plane plane =
-        accel_wide_split_plane(vertices, c->w->scale, &padded);
+    const struct split_plane plane = accel_wide_split_plane(vertices, c->w->scale, &padded);
     for (size_t i = 0; i < count; i++)
         for (int k = 0; k < 3; k++) {
             part[i].lo[k] += (float)(0.875 * SPLIT_PAD);
