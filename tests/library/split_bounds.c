@@ -83,7 +83,7 @@ static bool cut_triangle(struct case_of *c)
                                      .w = &c->w,
                                      .bounds = {{-1.0, -1.0, -1.0}, {1.0, 1.0, 1.0}},
                                      .pieces = pieces};
-    if (!eligible(&split, 0))
+    if (accel_wide_split_excess(c->vertices, &c->padded, 1.0, SPLIT_LEAST) == 0.0)
         return false;
     assert_int_equal(accel_wide_split_items(&split, 0, c->item), PIECES);
     return true;

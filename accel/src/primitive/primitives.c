@@ -353,11 +353,17 @@ bool accel_primitives_check(struct build *build, const accel_scene *scene, uint3
     return true;
 }
 
+bool accel_primitives_triangle(const accel_geometry *from, uint32_t i, double vertices[9],
+                               accel_box *box)
+{
+    return copy_triangle(&from->triangles, i, vertices, box) == BOUNDED;
+}
+
 bool accel_primitives_bounded(const accel_geometry *from, uint32_t i, accel_box *box)
 {
     double copied[9];
     if (from->type == ACCEL_TRIANGLES)
-        return copy_triangle(&from->triangles, i, copied, box) == BOUNDED;
+        return accel_primitives_triangle(from, i, copied, box);
     if (from->type == ACCEL_SPHERES)
         return copy_sphere(&from->spheres, i, copied, box) == BOUNDED;
     return copy_object(&from->objects, i, box) == BOUNDED;

@@ -67,6 +67,11 @@ uint32_t accel_primitives_in(const accel_geometry *geometry);
 /* The box of one of its primitives, not padded. False if it is not bounded, or left out. */
 bool accel_primitives_bounded(const accel_geometry *geometry, uint32_t i, accel_box *box);
 
+/* The vertices of a triangle, as they are copied, and its box. False if it is not bounded, or left
+ * out. */
+bool accel_primitives_triangle(const accel_geometry *geometry, uint32_t i, double vertices[9],
+                               accel_box *box);
+
 /* Where there are only bounded triangles, and the kind keeps their vertices: frees boxes and the
  * list of ids (not its count), for good, and returns how many bytes that were; then the vertices.
  */

@@ -150,6 +150,16 @@ accel_box accel_wide_triangle_box(const struct wide_block *b, unsigned i);
 /* P' of a triangle by its id: false if no leaf holds it. Goes through the whole tree. */
 bool accel_wide_find_box(const struct wide *w, uint32_t id, accel_box *box);
 
+/* The power of two that takes the largest coordinate into [1/2, 1). */
+static inline double wide_scale(double largest)
+{
+    int exponent;
+    if (largest == 0.0)
+        return 1.0;
+    frexp(largest, &exponent);
+    return ldexp(1.0, exponent < -999 ? 999 : -exponent);
+}
+
 /* What leaves look like and cost. */
 struct wide_rule {
     unsigned lanes;  /* primitives that a leaf tests at once */

@@ -10,17 +10,12 @@
 /* Coordinates up to here leave all edge functions finite: see wide_leaf.h. */
 #define FAST_COORDINATE 0x1p300
 
-/* The power of two that takes the largest coordinate into [1/2, 1). */
-static double scale_of(const accel_box *bounds, double *largest)
+static double largest_of(const accel_box *bounds)
 {
-    int exponent;
-    *largest = 0.0;
+    double largest = 0.0;
     for (int k = 0; k < 3; k++)
-        *largest = fmax(*largest, fmax(fabs(bounds->lo[k]), fabs(bounds->hi[k])));
-    if (*largest == 0.0)
-        return 1.0;
-    frexp(*largest, &exponent);
-    return ldexp(1.0, exponent < -999 ? 999 : -exponent);
+        largest = fmax(largest, fmax(fabs(bounds->lo[k]), fabs(bounds->hi[k])));
+    return largest;
 }
 
 static float down(double x)
@@ -81,9 +76,9 @@ bool accel_wide_build(struct build *build, struct wide *w, const struct wide_isa
     const struct primitives *p = &build->a->prims;
     struct wide_split split;
     struct wide_binary_tree tree = {.clusters = clusters, .split = &split};
-    double largest;
+    const double largest = largest_of(&p->bounds);
     w->isa = isa;
-    w->scale = scale_of(&p->bounds, &largest);
+    w->scale = wide_scale(largest);
     w->fast = largest <= FAST_COORDINATE;
     accel_build_phase(build, "tree");
     bool fine = accel_wide_split(build, w, &split);

@@ -9,14 +9,13 @@
  */
 #include "wide_split.h"
 
-#include <float.h>
 #include <math.h>
+#include <string.h>
 
 #include "../core/box.h"
 
-/* Parts of a triangle at most; cuts above each other at most; turns in which a budget is shared;
- * primitives between two ticks. */
-enum { MOST = 255, CUTS = 80, TURNS = 8, TICK = 16384 };
+/* Parts of a triangle at most; cuts above each other at most; primitives between two ticks. */
+enum { MOST = 255, CUTS = 80, TICK = 16384 };
 
 /* ------------------------------------------------------------------------------- planes ---- */
 
@@ -173,85 +172,71 @@ uint32_t accel_wide_split_items(const struct wide_split *s, uint32_t id, struct 
 
 /* ----------------------------------------------------------------------------- deciding ---- */
 
-/* How much more surface a triangle's box has than itself, by the scene's. */
-static double excess(const struct wide_split *s, uint32_t id)
+double accel_wide_split_least(const accel_box *scaled, double count)
 {
-    const double *v = triangle(s->prims, id);
-    const accel_box *box = &s->prims->box[id];
+    double volume = 1.0;
+    for (int k = 0; k < 3; k++)
+        volume *= scaled->hi[k] - scaled->lo[k];
+    return fmax(SPLIT_LEAST, SPLIT_CELLS * cbrt(volume / count));
+}
+
+double accel_wide_split_excess(const double v[9], const accel_box *box, double scale, double least)
+{
     double a[3], b[3], square = 0.0;
-    if (!v)
-        return 0.0;
+    accel_box scaled;
     for (int k = 0; k < 3; k++) {
-        a[k] = (v[3 + k] - v[k]) * s->w->scale;
-        b[k] = (v[6 + k] - v[k]) * s->w->scale;
+        a[k] = (v[3 + k] - v[k]) * scale;
+        b[k] = (v[6 + k] - v[k]) * scale;
+        scaled.lo[k] = box->lo[k] * scale;
+        scaled.hi[k] = box->hi[k] * scale;
     }
+    if (!(box_longest(&scaled) >= least))
+        return 0.0;
     for (int k = 0; k < 3; k++) {
         const int i = (k + 1) % 3, j = (k + 2) % 3;
         const double n = a[i] * b[j] - a[j] * b[i];
         square += n * n;
     }
-    const accel_box scaled = wide_scaled(s->w, box);
-    return fmax(0.0, (box_area(&scaled) - 0.5 * sqrt(square)) / box_area(&s->bounds));
+    return fmax(0.0, box_area(&scaled) - 0.5 * sqrt(square));
 }
 
-/* May it be cut? */
-static bool eligible(const struct wide_split *s, uint32_t id)
+static double excess(const struct wide_split *s, uint32_t id)
 {
-    return box_longest(&s->prims->box[id]) * s->w->scale >= SPLIT_LEAST;
+    const double *v = triangle(s->prims, id);
+    return v ? accel_wide_split_excess(v, &s->prims->box[id], s->w->scale, s->least) : 0.0;
 }
 
-/* The sum of all. */
-static bool sum_excess(struct build *build, const struct wide_split *s, double *sum)
+/* The sums of all, and of their roots. */
+static bool sum_excess(struct build *build, const struct wide_split *s, double *sum, double *roots)
 {
     const struct ids *ids = &s->prims->bounded;
-    *sum = 0.0;
+    *sum = *roots = 0.0;
     for (size_t i = 0; i < ids->count; i++) {
-        *sum += excess(s, ids->at[i]);
+        const double e = excess(s, ids->at[i]);
+        *sum += e;
+        *roots += sqrt(e);
         if (i % TICK == TICK - 1 && !build_step(build, TICK, 0.0))
             return false;
     }
     return true;
 }
 
-/* The number of parts more for each unit of size. */
-static bool find_rate(struct build *build, const struct wide_split *s, double budget, double *rate)
+/* In the order of ids: what is left over of one's share goes to the next. */
+static bool share(struct build *build, struct wide *w, struct wide_split *s, double rate)
 {
     const struct ids *ids = &s->prims->bounded;
-    *rate = 1.0;
-    for (int turn = 0; turn < TURNS; turn++) {
-        double got = 0.0;
-        for (size_t i = 0; i < ids->count; i++) {
-            if (eligible(s, ids->at[i])) {
-                const double wish = *rate * sqrt(excess(s, ids->at[i]));
-                got += turn == 0 ? wish : fmin(floor(wish), MOST - 1);
-            }
-            if (i % TICK == TICK - 1 && !build_step(build, TICK, 0.0))
-                return false;
-        }
-        if (!(got > 0.0))
-            return true;
-        *rate *= budget / got;
-    }
-    return true;
-}
-
-static bool share(struct build *build, struct wide *w, struct wide_split *s)
-{
-    const struct ids *ids = &s->prims->bounded;
-    double rate;
-    if (!find_rate(build, s, SPLIT_BUDGET * (double)ids->count, &rate))
-        return false;
-    for (uint32_t i = 0; i < s->prims->count; i++)
-        s->pieces[i] = 1;
-    double left = SPLIT_BUDGET * (double)ids->count;
+    double carried = 0.0;
+    memset(s->pieces, 1, s->prims->count);
     for (size_t i = 0; i < ids->count; i++) {
         const uint32_t id = ids->at[i];
-        const double wish = eligible(s, id) ? floor(rate * sqrt(excess(s, id))) : 0.0;
-        const double more = fmin(fmin(wish, MOST - 1), floor(left));
-        left -= more;
+        const double wish = rate * sqrt(excess(s, id));
+        const double more = wish > 0.0 ? fmin(floor(wish + carried), MOST - 1) : 0.0;
+        carried = fmin(wish + carried - more, 1.0);
         s->pieces[id] = (uint8_t)(1.0 + more);
         if (more > 0.0)
             w->reach = fmax(w->reach, box_longest(&s->prims->box[id]) * w->scale * (1.0 + 0x1p-20));
+        if (i % TICK == TICK - 1 && !build_step(build, TICK, 0.0))
+            return false;
     }
     return true;
 }
@@ -259,20 +244,21 @@ static bool share(struct build *build, struct wide *w, struct wide_split *s)
 bool accel_wide_split(struct build *build, struct wide *w, struct wide_split *s)
 {
     const struct primitives *p = &build->a->prims;
-    double overlap;
+    double sum, roots;
     w->reach = 0.0;
     *s = (struct wide_split){.prims = p, .w = w, .bounds = wide_scaled(w, &p->bounds)};
     const bool plain = w->fast && w->scale <= SPLIT_SCALE && w->scale >= 1.0 / SPLIT_SCALE;
     if (!p->triangles || !plain)
         return true;
-    if (!sum_excess(build, s, &overlap))
+    s->least = accel_wide_split_least(&s->bounds, (double)p->bounded.count);
+    if (!sum_excess(build, s, &sum, &roots))
         return false;
-    if (!(overlap >= SPLIT_OVERLAP))
+    if (!(sum >= SPLIT_OVERLAP * box_area(&s->bounds) && roots > 0.0))
         return true;
     s->pieces = accel_memory_resize(&build->a->memory, NULL, 0, p->count);
     if (!s->pieces)
         return accel_build_no_memory(build);
-    return share(build, w, s);
+    return share(build, w, s, SPLIT_BUDGET * (double)p->bounded.count / roots);
 }
 
 void accel_wide_split_free(struct build *build, struct wide_split *s)

@@ -71,6 +71,7 @@ struct wide_split {
     const struct primitives *prims;
     const struct wide *w;
     accel_box bounds; /* of the scene, scaled */
+    double least;     /* side of a triangle that is cut */
     uint8_t *pieces;  /* by id; NULL: nothing is cut */
 };
 
@@ -91,10 +92,19 @@ uint32_t accel_wide_split_items(const struct wide_split *s, uint32_t id, struct 
 /* By how much the general walk must grow a tree's boxes, in the scene's coordinates: see above. */
 double accel_wide_split_growth(const struct wide *w, const struct query *q);
 
-/* How many times a line through the scene meets a triangle's box in vain, and more. Both the build
- * and what is told before it (estimate.c) ask whether it is too often. */
+/* Triangles are cut where their boxes have so many times the surface of the scene's more than they
+ * have themselves, into so many parts more than there are primitives. */
 #define SPLIT_OVERLAP 8.0
 #define SPLIT_BUDGET  0.6
+
+/* The shortest side of a triangle that is cut, of so many primitives in a box: parts of triangles
+ * that are not much larger than the space between them come to one leaf again. */
+#define SPLIT_CELLS 3.0
+double accel_wide_split_least(const accel_box *scaled, double count);
+
+/* How much more surface a triangle's box has than the triangle, scaled; 0 if it is not cut. */
+double accel_wide_split_excess(const double vertices[9], const accel_box *box, double scale,
+                               double least);
 
 /* A triangle, and the part of a cell near its plane. */
 struct split_plane {
