@@ -2,10 +2,11 @@
  *
  * Cutting large triangles into parts: see wide_split.h.
  *
- * How many parts each gets: in proportion to the root of what its box has more surface than itself,
- * so many that there are SPLIT_BUDGET times as many references more as primitives; none where boxes
- * of all triangles together are not much larger than the scene's (SPLIT_OVERLAP), as on meshes of
- * small triangles, where parts take memory and save little. Measured: LOG.md.
+ * How many parts each gets: in proportion to the root of what its box has more surface than what
+ * its plane cuts out of the box, so many that there are SPLIT_BUDGET times as many references more
+ * as primitives; none where boxes of all triangles together are not much larger than the scene's
+ * (SPLIT_OVERLAP), as on meshes of small triangles, where parts take memory and save little.
+ * Measured: LOG.md.
  */
 #include "wide_split.h"
 
@@ -182,7 +183,7 @@ double accel_wide_split_least(const accel_box *scaled, double count)
 
 double accel_wide_split_excess(const double v[9], const accel_box *box, double scale, double least)
 {
-    double a[3], b[3], square = 0.0;
+    double a[3], b[3], normal[3], square = 0.0;
     accel_box scaled;
     for (int k = 0; k < 3; k++) {
         a[k] = (v[3 + k] - v[k]) * scale;
@@ -194,10 +195,17 @@ double accel_wide_split_excess(const double v[9], const accel_box *box, double s
         return 0.0;
     for (int k = 0; k < 3; k++) {
         const int i = (k + 1) % 3, j = (k + 2) % 3;
-        const double n = a[i] * b[j] - a[j] * b[i];
-        square += n * n;
+        normal[k] = a[i] * b[j] - a[j] * b[i];
+        square += normal[k] * normal[k];
     }
-    return fmax(0.0, box_area(&scaled) - 0.5 * sqrt(square));
+    /* the plane's part in the box is no larger than the box's side allows, seen along any axis */
+    double flat = box_area(&scaled);
+    for (int k = 0; k < 3; k++) {
+        const int i = (k + 1) % 3, j = (k + 2) % 3;
+        const double face = (scaled.hi[i] - scaled.lo[i]) * (scaled.hi[j] - scaled.lo[j]);
+        flat = fmin(flat, face * sqrt(square) / fabs(normal[k]));
+    }
+    return box_area(&scaled) - flat;
 }
 
 static double excess(const struct wide_split *s, uint32_t id)

@@ -92,8 +92,8 @@ uint32_t accel_wide_split_items(const struct wide_split *s, uint32_t id, struct 
 /* By how much the general walk must grow a tree's boxes, in the scene's coordinates: see above. */
 double accel_wide_split_growth(const struct wide *w, const struct query *q);
 
-/* Triangles are cut where their boxes have so many times the surface of the scene's more than they
- * have themselves, into so many parts more than there are primitives. */
+/* Triangles are cut where their boxes have so many times the surface of the scene's more than what
+ * their planes cut out of them, into so many parts more than there are primitives. */
 #define SPLIT_OVERLAP 8.0
 #define SPLIT_BUDGET  0.6
 
@@ -102,7 +102,8 @@ double accel_wide_split_growth(const struct wide *w, const struct query *q);
 #define SPLIT_CELLS 3.0
 double accel_wide_split_least(const accel_box *scaled, double count);
 
-/* How much more surface a triangle's box has than the triangle, scaled; 0 if it is not cut. */
+/* How much more surface a triangle's box has than its plane in the box, scaled; 0 if it is not cut:
+ * nothing can be taken off the box of a triangle across an axis, or without a surface. */
 double accel_wide_split_excess(const double vertices[9], const accel_box *box, double scale,
                                double least);
 
