@@ -299,6 +299,8 @@ void Accelerator::BuildPart(Part& part, vector<accel_box>& boxes, const accel_ho
 		}
 	}
 
+	part.bounds = part.unbounded.size() < objects.size();
+
 	for(vector<ObjectPtr>::const_iterator i = objects.begin(); i != objects.end(); i++)
 		tests += Count_Parts(*i);
 
@@ -447,7 +449,7 @@ bool Accelerator::FindIntersection(Trace& trace, Trace::CooperateFunctor& cooper
 }
 
 /// The unbounded objects as a linear search would test them, then the structure for what is nearer, or as near and before them.
-bool Accelerator::FindInPart(const Part& part, AccelQuery& query, accel_query& counters, uint32_t& index) const
+inline bool Accelerator::FindInPart(const Part& part, AccelQuery& query, accel_query& counters, uint32_t& index) const
 {
 	const DBL limit = query.best.Depth;
 	accel_ray ray;
@@ -481,7 +483,7 @@ bool Accelerator::FindInPart(const Part& part, AccelQuery& query, accel_query& c
 	ray.skip.geom = ray.skip.prim = ACCEL_NONE;
 	hit.prim = ACCEL_NONE;
 
-	const bool found = (part.unbounded.size() < objects.size()) && accel_closest(part.structure, &ray, &hit, &counters);
+	const bool found = part.bounds && accel_closest(part.structure, &ray, &hit, &counters);
 
 	counters.tests += part.unbounded.size();
 	if(counters.refused > 0)
@@ -521,7 +523,7 @@ bool Accelerator::Find(Trace& trace, Trace::CooperateFunctor& cooperate, AccelQu
 	uint32_t index = ACCEL_NONE;
 	bool found = false;
 
-	if(changing.empty() == false && (changing.count(query.missed) > 0))
+	if((query.missed != NULL) && (changing.count(query.missed) > 0))
 		query.missed = NULL;
 	if(few == false)
 	{
@@ -547,13 +549,15 @@ bool Accelerator::Find(Trace& trace, Trace::CooperateFunctor& cooperate, AccelQu
 		stats[Accel_Queries_Succeeded]++;
 	stats[Accel_Nodes] += counters.nodes;
 	stats[Accel_Box_Tests] += counters.tests;
-	stats[Accel_Leaf_Tests] += query.leafTests;
-	stats[Accel_Leaf_Tests_Succeeded] += query.leafHits;
+	if(query.leafTests > 0)
+	{
+		stats[Accel_Leaf_Tests] += query.leafTests;
+		stats[Accel_Leaf_Tests_Succeeded] += query.leafHits;
+		stats[Accel_Hits_Outside] += verify ? 0 : counters.outside;
+	}
 	stats[Accel_Rays_Refused] += counters.refused;
 
-	if(verify == false)
-		stats[Accel_Hits_Outside] += counters.outside;
-	else // counts them itself, and more of them
+	if(verify) // counts them itself, and more of them
 		Verify(trace, query, (counters.refused > 0) ? NULL : part, limit, found, index);
 
 	return found;

@@ -119,11 +119,12 @@ class Accelerator
 			AccelReach reach;
 			accel *structure; // NULL until built
 			vector<uint32_t> unbounded; // the objects that the structure leaves out, rising
+			bool bounds; // are there others?
 			vector<accel_box> boxes; // kept for Accelerator_Verify alone
 			std::atomic<bool> built;
 			std::atomic<POV_ULONG> queries; // of all but the first
 
-			Part() : structure(NULL), built(false), queries(0) { }
+			Part() : structure(NULL), bounds(false), built(false), queries(0) { }
 		};
 
 		/// for the first part, until it is built: boxes, and what Find_Insides says
@@ -145,7 +146,7 @@ class Accelerator
 		const Part *FarPart(const Ray& ray, Trace::CooperateFunctor& cooperate) const;
 		const Part *BuiltPart(Part& part, Trace::CooperateFunctor& cooperate) const;
 		bool Find(Trace& trace, Trace::CooperateFunctor& cooperate, AccelQuery& query) const;
-		bool FindInPart(const Part& part, AccelQuery& query, accel_query& counters, uint32_t& index) const;
+		inline bool FindInPart(const Part& part, AccelQuery& query, accel_query& counters, uint32_t& index) const;
 		bool FindAmongFew(AccelQuery& query, uint32_t& index) const;
 		void Verify(Trace& trace, const AccelQuery& query, const Part *part, DBL limit, bool found, uint32_t index) const;
 		void VerifyInteriors(const AccelPointQuery& query) const;
