@@ -149,7 +149,7 @@ static void add_excess(struct parts *p, struct member m, const double centre[3])
     accel_box box;
     (void)centre;
     if (from->type == ACCEL_TRIANGLES && accel_primitives_triangle(from, m.place, vertices, &box))
-        p->excess += accel_wide_split_excess(vertices, &box, p->scale, p->least);
+        p->excess += wide_split_excess(vertices, &box, p->scale, p->least);
 }
 
 /* Are triangles cut in a wide tree over the whole? A little sooner than the build says so, as boxes
@@ -165,7 +165,7 @@ static bool see_whether_cut(struct parts *p)
         scaled.lo[k] = p->bounds.lo[k] * p->scale;
         scaled.hi[k] = p->bounds.hi[k] * p->scale;
     }
-    p->least = 0.999 * accel_wide_split_least(&scaled, (double)p->bounded);
+    p->least = 0.999 * wide_split_least(&scaled, (double)p->bounded);
     if (!pass(p, add_excess))
         return false;
     p->cut = p->excess >= 0.999 * SPLIT_OVERLAP * box_area(&scaled);

@@ -173,45 +173,10 @@ uint32_t accel_wide_split_items(const struct wide_split *s, uint32_t id, struct 
 
 /* ----------------------------------------------------------------------------- deciding ---- */
 
-double accel_wide_split_least(const accel_box *scaled, double count)
-{
-    double volume = 1.0;
-    for (int k = 0; k < 3; k++)
-        volume *= scaled->hi[k] - scaled->lo[k];
-    return fmax(SPLIT_LEAST, SPLIT_CELLS * cbrt(volume / count));
-}
-
-double accel_wide_split_excess(const double v[9], const accel_box *box, double scale, double least)
-{
-    double a[3], b[3], normal[3], square = 0.0;
-    accel_box scaled;
-    for (int k = 0; k < 3; k++) {
-        a[k] = (v[3 + k] - v[k]) * scale;
-        b[k] = (v[6 + k] - v[k]) * scale;
-        scaled.lo[k] = box->lo[k] * scale;
-        scaled.hi[k] = box->hi[k] * scale;
-    }
-    if (!(box_longest(&scaled) >= least))
-        return 0.0;
-    for (int k = 0; k < 3; k++) {
-        const int i = (k + 1) % 3, j = (k + 2) % 3;
-        normal[k] = a[i] * b[j] - a[j] * b[i];
-        square += normal[k] * normal[k];
-    }
-    /* the plane's part in the box is no larger than the box's side allows, seen along any axis */
-    double flat = box_area(&scaled);
-    for (int k = 0; k < 3; k++) {
-        const int i = (k + 1) % 3, j = (k + 2) % 3;
-        const double face = (scaled.hi[i] - scaled.lo[i]) * (scaled.hi[j] - scaled.lo[j]);
-        flat = fmin(flat, face * sqrt(square) / fabs(normal[k]));
-    }
-    return box_area(&scaled) - flat;
-}
-
 static double excess(const struct wide_split *s, uint32_t id)
 {
     const double *v = triangle(s->prims, id);
-    return v ? accel_wide_split_excess(v, &s->prims->box[id], s->w->scale, s->least) : 0.0;
+    return v ? wide_split_excess(v, &s->prims->box[id], s->w->scale, s->least) : 0.0;
 }
 
 /* The sums of all, and of their roots. */
@@ -258,7 +223,7 @@ bool accel_wide_split(struct build *build, struct wide *w, struct wide_split *s)
     const bool plain = w->fast && w->scale <= SPLIT_SCALE && w->scale >= 1.0 / SPLIT_SCALE;
     if (!p->triangles || !plain)
         return true;
-    s->least = accel_wide_split_least(&s->bounds, (double)p->bounded.count);
+    s->least = wide_split_least(&s->bounds, (double)p->bounded.count);
     if (!sum_excess(build, s, &sum, &roots))
         return false;
     if (!(sum >= SPLIT_OVERLAP * box_area(&s->bounds) && roots > 0.0))

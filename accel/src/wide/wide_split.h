@@ -51,6 +51,9 @@
 #ifndef ACCEL_WIDE_SPLIT_H
 #define ACCEL_WIDE_SPLIT_H
 
+#include <math.h>
+
+#include "../core/box.h"
 #include "wide.h"
 
 /* See above. */
@@ -98,14 +101,46 @@ double accel_wide_split_growth(const struct wide *w, const struct query *q);
 #define SPLIT_BUDGET  0.6
 
 /* The shortest side of a triangle that is cut, of so many primitives in a box: parts of triangles
- * that are not much larger than the space between them come to one leaf again. */
+ * that are not much larger than the space between them come to one leaf again. Here, as the next,
+ * because estimates need it, also where no kind has a wide form. */
 #define SPLIT_CELLS 3.0
-double accel_wide_split_least(const accel_box *scaled, double count);
+static inline double wide_split_least(const accel_box *scaled, double count)
+{
+    double volume = 1.0;
+    for (int k = 0; k < 3; k++)
+        volume *= scaled->hi[k] - scaled->lo[k];
+    return fmax(SPLIT_LEAST, SPLIT_CELLS * cbrt(volume / count));
+}
 
 /* How much more surface a triangle's box has than its plane in the box, scaled; 0 if it is not cut:
  * nothing can be taken off the box of a triangle across an axis, or without a surface. */
-double accel_wide_split_excess(const double vertices[9], const accel_box *box, double scale,
-                               double least);
+static inline double wide_split_excess(const double v[9], const accel_box *box, double scale,
+                                       double least)
+{
+    double a[3], b[3], normal[3], square = 0.0;
+    accel_box scaled;
+    for (int k = 0; k < 3; k++) {
+        a[k] = (v[3 + k] - v[k]) * scale;
+        b[k] = (v[6 + k] - v[k]) * scale;
+        scaled.lo[k] = box->lo[k] * scale;
+        scaled.hi[k] = box->hi[k] * scale;
+    }
+    if (!(box_longest(&scaled) >= least))
+        return 0.0;
+    for (int k = 0; k < 3; k++) {
+        const int i = (k + 1) % 3, j = (k + 2) % 3;
+        normal[k] = a[i] * b[j] - a[j] * b[i];
+        square += normal[k] * normal[k];
+    }
+    /* the plane's part in the box is no larger than the box's side allows, seen along any axis */
+    double flat = box_area(&scaled);
+    for (int k = 0; k < 3; k++) {
+        const int i = (k + 1) % 3, j = (k + 2) % 3;
+        const double face = (scaled.hi[i] - scaled.lo[i]) * (scaled.hi[j] - scaled.lo[j]);
+        flat = fmin(flat, face * sqrt(square) / fabs(normal[k]));
+    }
+    return box_area(&scaled) - flat;
+}
 
 /* A triangle, and the part of a cell near its plane. */
 struct split_plane {
