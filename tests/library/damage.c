@@ -287,8 +287,8 @@ static void test_damage(void **state)
 {
     (void)state;
     static const char *const scenes[] = {
-        "mixed", "shards",       "degenerate",   "lattice",       "series", "nested-spheres",
-        "twins", "one-triangle", "scale-1e-310", "huge-and-tiny", "stack"};
+        "mixed",          "shards", "thicket",      "degenerate",   "lattice",       "series",
+        "nested-spheres", "twins",  "one-triangle", "scale-1e-310", "huge-and-tiny", "stack"};
     const uint64_t wounds = scaled_count(180);
     struct tested *list;
     const size_t count = tested_configs(&list);
