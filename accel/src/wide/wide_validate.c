@@ -30,7 +30,6 @@ struct checker {
     uint64_t found;      /* primitives so far */
     uint64_t references; /* the same, each as often as it is in leaves */
     uint64_t sum;        /* over the vertices so far: see seal.h */
-    uint64_t *seals;     /* by id: of its vertices where it was met first; NULL: nothing is cut */
     struct part *part;   /* `parts` of them; there is room for */
     size_t parts, room;
 };
@@ -93,16 +92,13 @@ static bool check_primitive(struct checker *c, const struct wide_block *b, unsig
         return broken(c, "a leaf's box does not hold primitive", id);
     if (!held && !note_part(c, lo, hi, b, i))
         return false;
-    c->found += first;
+    if (!first)
+        return true;
+    c->found++;
     if (b->type < WIDE_SPHERES) {
         double vertices[9];
         accel_wide_vertices(b, i, vertices);
-        const uint64_t seal = seal_primitive(id, vertices, 9);
-        c->sum += first ? seal : 0;
-        if (!first && c->seals[id] != seal)
-            return broken(c, "leaves differ in the vertices of primitive", id);
-        if (c->seals)
-            c->seals[id] = seal;
+        c->sum += seal_primitive(id, vertices, 9);
     }
     return true;
 }
@@ -253,15 +249,12 @@ static bool check_all(struct checker *c)
 bool accel_wide_validate(const accel *a, const struct wide *w, accel_error *error)
 {
     struct checker c = {.a = a, .w = w, .error = error, .seen = calloc(a->prims.count, 1)};
-    const bool cut = w->reach > 0.0;
-    if (cut)
-        c.seals = calloc(a->prims.count, sizeof *c.seals);
-    bool fine = c.seen && (c.seals || !cut);
-    if (!fine)
+    if (!c.seen) {
         accel_error_set(error, ACCEL_NO_MEMORY, "validate: no memory for %u ids", a->prims.count);
-    fine = fine && check_all(&c);
+        return false;
+    }
+    const bool fine = check_all(&c);
     free(c.seen);
-    free(c.seals);
     free(c.part);
     return fine;
 }
